@@ -1,0 +1,64 @@
+// What the array IS, as data: number formats per signal class, schedule, lanes, normaliser, bus.
+// Every option changes bits or cycles; docs/datapath.md says which bits, docs/cycles.md which cycles.
+#pragma once
+
+#include "rtl_model/spec/number_format.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace hopmesh::spec {
+
+/// Who fires together: neurons of one colour; one neuron at a time; all at once (no proof of descent).
+enum class Schedule : std::uint8_t { coloured, sequential, synchronous };
+inline constexpr std::array<std::string_view, 3> schedule_names{"coloured", "sequential", "synchronous"};
+
+/// How u = s / N is made: rows divided by N on the host; truncated reciprocal in the cell; exact divider.
+enum class Normaliser : std::uint8_t { prescaled, reciprocal, divider };
+inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "reciprocal", "divider"};
+
+inline std::string_view name_of(Schedule s) { return schedule_names[static_cast<std::size_t>(s)]; }
+inline std::string_view name_of(Normaliser n) { return normaliser_names[static_cast<std::size_t>(n)]; }
+
+/// Number format of each class of signals. `bias` counts in units of weight (its point lies where it says).
+/// `accumulator` is used only if !exact_accumulator; otherwise it is derived, wide enough for every sum.
+struct Formats {
+  NumberFormat weight{16, 1, Rounding::rnd, Overflow::sat};
+  NumberFormat bias{24, 9, Rounding::rnd, Overflow::sat};
+  NumberFormat accumulator{40, 12, Rounding::trn, Overflow::sat};
+  NumberFormat drive{16, 2, Rounding::trn_zero, Overflow::sat}; ///< u = s / N
+  NumberFormat state{16, 2, Rounding::trn_zero, Overflow::sat}; ///< V inside the output stage
+  NumberFormat link{16, 2, Rounding::trn_zero, Overflow::sat};  ///< V as neighbours see it
+};
+
+struct ArraySpec {
+  std::string name = "custom";
+  Schedule schedule = Schedule::coloured;
+  int lanes = 3; ///< multipliers per neuron: taps taken per cycle
+  Normaliser normaliser = Normaliser::divider;
+  int reciprocal_bits = 18; ///< width of the reciprocal's mantissa (unsigned, truncated)
+  bool exact_accumulator = true;
+  int bus_bits = 32;       ///< data width of the host bus: 32, 64 or 128
+  double clock_mhz = 100.0; ///< only for times in seconds; changes neither bits nor cycles
+  Formats formats;
+};
+
+/// Width that holds every sum of a row of `taps` products and its bias without loss (docs/datapath.md).
+/// Its fraction is that of a product, or of the bias where that is finer.
+inline NumberFormat exact_accumulator_format(const Formats& f, std::size_t taps) {
+  const int product_fraction = f.weight.fraction_bits() + f.link.fraction_bits();
+  const int fraction = std::max(product_fraction, f.bias.fraction_bits());
+  const int product_integer = f.weight.integer_bits + 1; // |link| <= 1: the magnitude is a weight's, plus sign room
+  int growth = 0;
+  while ((std::size_t{1} << growth) < taps + 1) ++growth;
+  const int integer = std::max(product_integer, f.bias.integer_bits) + growth;
+  return NumberFormat{integer + fraction, integer, Rounding::trn, Overflow::wrap};
+}
+
+/// The accumulator's format as built for rows of at most `taps` inputs.
+inline NumberFormat accumulator_format(const ArraySpec& a, std::size_t taps) {
+  return a.exact_accumulator ? exact_accumulator_format(a.formats, taps) : a.formats.accumulator;
+}
+
+} // namespace hopmesh::spec

@@ -1,0 +1,108 @@
+// Mesh graph -> colours -> phases -> cycles. The order in which neurons fire and what it costs, as formulas.
+// docs/cycles.md prints the same formulas; tests hold the SystemC array to them, to the cycle.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/topology.h"
+
+#include <set>
+#include <tuple>
+
+namespace hopmesh::spec {
+
+/// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it, ascending.
+using Phases = std::vector<std::vector<std::uint32_t>>;
+
+/// Colours the cells so that no two joined cells share one (DSATUR; ties to the higher degree, then the lower
+/// number, so that every machine finds the same colouring). Two colours suffice exactly where the graph is bipartite.
+inline std::vector<std::uint32_t> colour_cells(const Topology& t) {
+  const std::size_t n = t.cells();
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> colour(n, none);
+  std::vector<std::set<std::uint32_t>> seen(n);
+  using Key = std::tuple<long, long, std::size_t>;
+  const auto key = [&](std::size_t c) { return Key{-long(seen[c].size()), -long(t.degree(c)), c}; };
+  std::set<Key> waiting;
+  for (std::size_t c = 0; c < n; ++c) waiting.insert(key(c));
+  while (!waiting.empty()) {
+    const std::size_t c = std::get<2>(*waiting.begin());
+    waiting.erase(waiting.begin());
+    std::uint32_t free_colour = 0;
+    while (seen[c].count(free_colour)) ++free_colour;
+    colour[c] = free_colour;
+    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k) {
+      const std::size_t other = t.link_to[k];
+      if (colour[other] != none || seen[other].count(free_colour)) continue;
+      waiting.erase(key(other));
+      seen[other].insert(free_colour);
+      waiting.insert(key(other));
+    }
+  }
+  return colour;
+}
+
+/// Phases of one sweep. Coloured: colour by colour, within a colour component by component.
+/// Sequential: one neuron a phase, in number order. Synchronous: one phase.
+inline Phases phases_of(const Topology& t, Schedule schedule) {
+  const std::size_t per_cell = t.neurons_per_cell;
+  Phases phases;
+  if (t.cells() == 0) return phases;
+  if (schedule == Schedule::synchronous) {
+    phases.resize(1);
+    for (std::size_t i = 0; i < t.neurons(); ++i) phases[0].push_back(i);
+  } else if (schedule == Schedule::sequential) {
+    for (std::size_t i = 0; i < t.neurons(); ++i) phases.push_back({std::uint32_t(i)});
+  } else {
+    const auto colour = colour_cells(t);
+    phases.resize(per_cell * (1 + *std::max_element(colour.begin(), colour.end())));
+    for (std::size_t c = 0; c < t.cells(); ++c)
+      for (std::size_t p = 0; p < per_cell; ++p) phases[colour[c] * per_cell + p].push_back(c * per_cell + p);
+  }
+  return phases;
+}
+
+/// Cycle counts of an array built for a topology (docs/cycles.md).
+struct CycleModel {
+  std::uint64_t prepare = 0;        ///< once a run, after the start cycle: N of every row, and its reciprocal
+  std::vector<std::uint64_t> phase; ///< accumulate + normalise + output, by the longest row that fires
+  std::uint64_t sweep = 0;          ///< all phases and one cycle of the convergence detector
+
+  /// From the cycle in which START is taken to the cycle in which DONE rises.
+  std::uint64_t run(std::uint64_t sweeps) const { return 1 + prepare + sweeps * sweep; }
+};
+
+inline std::uint64_t accumulate_cycles(const ArraySpec& a, std::size_t taps) {
+  return (taps + a.lanes - 1) / a.lanes;
+}
+
+/// Prescaled: round (1). Reciprocal: multiply, shift and round (2). Divider: one quotient bit a cycle
+/// (fraction bits and the unit), then round.
+inline std::uint64_t normalise_cycles(const ArraySpec& a) {
+  if (a.normaliser == Normaliser::prescaled) return 1;
+  if (a.normaliser == Normaliser::reciprocal) return 2;
+  return a.formats.drive.fraction_bits() + 2;
+}
+
+/// R u (1), new V onto state and link (1).
+inline constexpr std::uint64_t output_cycles = 2;
+
+inline CycleModel cycle_model(const ArraySpec& a, const Topology& t, const Phases& phases) {
+  CycleModel m;
+  if (a.normaliser != Normaliser::prescaled) m.prepare = accumulate_cycles(a, t.most_taps());
+  if (a.normaliser == Normaliser::reciprocal) m.prepare += a.reciprocal_bits + 1;
+  for (const auto& neurons : phases) {
+    std::size_t taps = 0;
+    for (std::uint32_t i : neurons) taps = std::max(taps, t.taps(i / t.neurons_per_cell));
+    m.phase.push_back(accumulate_cycles(a, taps) + normalise_cycles(a) + output_cycles);
+    m.sweep += m.phase.back();
+  }
+  m.sweep += 1;
+  return m;
+}
+
+/// Cycles that a transfer of `words` 32-bit words holds the bus: one for the address, then the data beats.
+inline std::uint64_t bus_cycles(const ArraySpec& a, std::uint64_t words) {
+  return 1 + (words * 32 + a.bus_bits - 1) / a.bus_bits;
+}
+
+} // namespace hopmesh::spec

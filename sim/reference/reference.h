@@ -1,0 +1,79 @@
+// The algorithm in double precision with Eigen: the readable definition, written from docs/theory.md alone. It shares
+// no arithmetic with the firmware or the array; that they agree is evidence.
+#pragma once
+
+#include "sim/scene/mesh.h"
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+namespace hopmesh::reference {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// Neurons are numbered components * node + p over ALL nodes (components: 3, or 2 for x and z in planar meshes);
+/// rows, columns and entries of pinned nodes are empty and zero.
+struct Network {
+  Matrix W;
+  Vector I;
+};
+
+/// Order in which neurons fire: one entry a phase; neurons of a phase all read the outputs from before it.
+using Order = std::vector<std::vector<std::uint32_t>>;
+
+struct Relaxation {
+  Vector V;
+  std::uint32_t sweeps = 0;
+  bool converged = false;
+};
+
+struct Motion {
+  double time_step, friction, gamma, beta, acceleration_memory;
+  bool energy_of_all_springs, force_on_acceleration;
+  Eigen::Vector3d force;
+  double threshold;
+  std::uint32_t max_sweeps, expansions;
+};
+
+/// Motion of a scene; force is gravity plus wind.
+Motion motion_of(const scene::Scene& scene);
+
+/// Positions, velocities, accelerations: [3 * nodes], node by node.
+struct State {
+  Vector position, velocity, acceleration;
+  Vector V; ///< [components * nodes] rest state of the step before; zero at first
+  std::uint64_t step = 0;
+};
+
+State initial_state(const scene::Mesh& mesh);
+
+/// C of math.md 1: [3 * nodes].
+Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
+/// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter than 1e-9.
+Vector expansion_point(const scene::Mesh& mesh, const State& state);
+/// E(V) of math.md 1 (paper eq. 15).
+double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
+/// Sum of alpha (|x_i - x_j| - L)^2.
+double spring_energy(const scene::Mesh& mesh, const Vector& position);
+/// W = -H, I = H V0 - g of math.md 2, about V0.
+Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);
+/// -1/2 V'WV - I'V.
+double network_energy(const Network& network, const Vector& V);
+/// The rule of math.md 3 from V, until no output moves by more than threshold in a sweep, or max_sweeps.
+Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
+                 std::uint32_t max_sweeps);
+/// Largest violation of the KKT conditions on the box [-1, 1], each s_i divided by its N_i.
+double kkt_violation(const Network& network, const Vector& V);
+
+/// What one step did, for records and for `network --step`.
+struct Step {
+  Vector predicted, V0;
+  Network network;
+  Relaxation relaxation;
+};
+
+/// One whole step of math.md 4 (probe).
+Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+
+} // namespace hopmesh::reference

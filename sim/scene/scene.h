@@ -1,0 +1,74 @@
+// A scene as data: what the scene file says, every key, defaults filled in (interfaces: docs/scene.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hopmesh::scene {
+
+using Vector3 = std::array<double, 3>;
+
+struct Grid {
+  int rows = 20, columns = 20;
+  double pitch = 1.0; ///< m
+};
+
+/// Which nodes are pinned: names (left, right, top, bottom, corners) or node numbers.
+using Pin = std::variant<std::string, std::int64_t>;
+
+struct MeshSpec {
+  std::optional<Grid> grid;        ///< exactly one of grid and file is set
+  std::optional<std::string> file; ///< OBJ, path already resolved against the scene file's folder
+  double scale = 1.0;              ///< file meshes: factor on coordinates
+  double structural = 1.0, shear = 1.0, bend = 0.0; ///< alpha of each kind; 0: no such spring
+  std::vector<Pin> pinned;
+  double pin_band = 0.02;          ///< file meshes: `top` is the part of the extent within this share of the highest
+  std::string up = "z";            ///< file meshes: the axis along which `top` is highest: x, y or z
+  double mass = 1.0;               ///< kg per node
+  std::optional<double> rest;      ///< rest length of every spring; none: natural (as built)
+  bool planar = false;             ///< two neurons a node, along x and z
+};
+
+enum class Formulation { probe };
+
+struct MotionSpec {
+  Formulation formulation = Formulation::probe;
+  double time_step = 0.05; ///< s
+  std::int64_t steps = 400;
+  double friction = 0.99; ///< factor on v each step
+};
+
+struct ProbeSpec {
+  double gamma = 4000.0;
+  double beta = 1.0; ///< beta_i = beta dt^4 mean alpha of the node's springs
+  double acceleration_memory = 0.0;
+  std::string energy_springs = "own"; ///< own | all
+  std::string force_on = "velocity";  ///< velocity | acceleration
+};
+
+struct RelaxSpec {
+  double threshold = 1e-4;
+  std::int64_t max_sweeps = 300;
+  std::int64_t expansions = 1;
+};
+
+struct ForceSpec {
+  Vector3 gravity{0, 0, 0}; ///< m/s^2
+  std::optional<Vector3> wind;
+};
+
+struct Scene {
+  std::string name;
+  std::string source; ///< the file it was read from
+  MeshSpec mesh;
+  MotionSpec motion;
+  ProbeSpec probe;
+  RelaxSpec relax;
+  ForceSpec force;
+};
+
+} // namespace hopmesh::scene

@@ -1,0 +1,29 @@
+// Scene and array files (TOML) and --set overrides -> descriptions. Every mistake is an InputError.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/scene.h"
+
+namespace hopmesh::scene {
+
+/// What a run was given: the scene, the array, and the overrides that were applied to either.
+struct Inputs {
+  Scene scene;
+  spec::ArraySpec array;
+};
+
+/// `scene`: a path, or the name of a shipped scene. `array`: a path, the name of a preset, or "" for the default.
+/// `overrides`: "key.path=value" with keys of the scene or of the array. Checks everything that can be checked
+/// without building the mesh, the array's rules included.
+Inputs read_inputs(const std::string& scene, const std::string& array,
+                   const std::vector<std::string>& overrides);
+
+/// Names of the shipped scenes, ascending, and the folder they are in.
+std::vector<std::string> shipped_scenes();
+
+/// The whole description with every default filled in, as TOML that read_inputs takes back.
+std::string scene_text(const Scene& scene);
+std::string array_text(const spec::ArraySpec& array);
+
+} // namespace hopmesh::scene
