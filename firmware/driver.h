@@ -1,5 +1,5 @@
-/* Drives one array over a bus: learns its formats and sizes from the capability registers, writes a network as raw
-   codes, starts it, waits for the interrupt, reads the outputs back. */
+/* Drives one array over a bus: learns its formats and sizes from the capability registers, writes a network
+   as raw codes, starts it, waits for the interrupt, reads the outputs back. */
 #ifndef HOPMESH_FIRMWARE_DRIVER_H
 #define HOPMESH_FIRMWARE_DRIVER_H
 
@@ -11,8 +11,8 @@ typedef struct hm_format {
 } hm_format;
 
 typedef struct hm_driver {
-  const hm_bus *bus;
-  uint32_t *buffer; /* caller's: room for one burst, at least HM_DRIVER_BUFFER(mesh) words */
+  const hm_bus* bus;
+  uint32_t* buffer; /* caller's: room for one burst */
   uint32_t buffer_words;
   uint32_t normaliser;
   hm_format weight, bias, state;
@@ -24,18 +24,17 @@ typedef struct hm_relaxation {
   uint64_t cycles;
 } hm_relaxation;
 
-/* Looks at the array behind `bus` and checks that it was built for `mesh`. Words of `buffer`: at least the longest
-   of a cell's weights, the links and the neurons. HM_OK or HM_ERROR_ID, _MESH, _BUS, _SPACE. */
-int hm_driver_open(hm_driver *driver, const hm_bus *bus, const hm_mesh *mesh, uint32_t *buffer,
+/* Looks at the array behind `bus` and checks that it was built for `mesh`. `buffer` is the longest burst, 1
+   word or more. HM_OK, or HM_ERROR_ID, _MESH, _BUS, _SPACE. */
+int hm_driver_open(hm_driver* driver, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
                    uint32_t buffer_words);
-uint32_t hm_driver_buffer_words(const hm_mesh *mesh);
 
 /* Raw code of `value` * 2^shift in `format`, by the format's rounding and overflow (SystemC's meaning). */
-int32_t hm_quantise(double value, int shift, const hm_format *format, int *clipped);
+int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped);
 
 /* Relaxes network->output from where it is until no output moves by more than `threshold`, or max_sweeps.
    HM_OK, or an error of bus.h; on an error network->output is as it was. */
-int hm_driver_relax(void *driver, const hm_mesh *mesh, hm_network *network, double threshold,
-                    uint32_t max_sweeps, hm_relaxation *result);
+int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
+                    uint32_t max_sweeps, hm_relaxation* result);
 
 #endif

@@ -1,4 +1,5 @@
-/* One time step: predict, build the network, relax it wherever the solver says, advance (math.md 4, probe). */
+/* One time step: predict, build the network, relax it wherever the solver says, advance (math.md 4, probe).
+ */
 #ifndef HOPMESH_FIRMWARE_INTEGRATOR_H
 #define HOPMESH_FIRMWARE_INTEGRATOR_H
 
@@ -6,18 +7,18 @@
 
 /* Whoever relaxes a network: the driver with an array behind it, or anything that answers the same way. */
 typedef struct hm_solver {
-  void *context;
-  int (*relax)(void *context, const hm_mesh *mesh, hm_network *network, double threshold,
-               uint32_t max_sweeps, hm_relaxation *result);
+  void* context;
+  int (*relax)(void* context, const hm_mesh* mesh, hm_network* network, double threshold, uint32_t max_sweeps,
+               hm_relaxation* result);
 } hm_solver;
 
 typedef struct hm_motion {
-  double time_step, friction;        /* s; factor on v each step */
-  double gamma, beta;                /* eq. 7; beta_i = beta dt^4 mean alpha */
-  double acceleration_memory;        /* 1: the paper's literal eq. 7; 0: a lives one step */
-  int energy_of_all_springs;         /* Delta E_i: 0 the node's own springs, 1 all springs */
-  int force_on_acceleration;         /* 0: v += dt * force; 1: a += force */
-  double force[3];                   /* acceleration of every free node: gravity + wind */
+  double time_step, friction; /* s; factor on v each step */
+  double gamma, beta;         /* eq. 7; beta_i = beta dt^4 mean alpha */
+  double acceleration_memory; /* 1: the paper's literal eq. 7; 0: a lives one step */
+  int energy_of_all_springs;  /* Delta E_i: 0 the node's own springs, 1 all springs */
+  int force_on_acceleration;  /* 0: v += dt * force; 1: a += force */
+  double force[3];            /* acceleration of every free node: gravity + wind */
   double threshold;
   uint32_t max_sweeps, expansions;
 } hm_motion;
@@ -25,10 +26,11 @@ typedef struct hm_motion {
 /* State between steps and room to work in; every array is the caller's. */
 typedef struct hm_state {
   double *position, *velocity, *acceleration; /* [nodes * 3] */
-  double *predicted;                          /* [nodes * 3] C of the step just done */
-  double *start;                              /* [cells * components] V0 of the step just done, before relaxing */
-  hm_network network;                         /* of the step just done; output holds V at rest */
-  uint64_t step;                              /* steps done */
+  double* predicted;                          /* [nodes * 3] C of the step just done */
+  double* energy_change;                      /* [cells] Delta E of the step just done (eq. 6) */
+  double* start;      /* [cells * components] V0 of the last expansion, before relaxing */
+  hm_network network; /* of the step just done; output holds V at rest */
+  uint64_t step;      /* steps done */
 } hm_state;
 
 typedef struct hm_step_result {
@@ -36,11 +38,12 @@ typedef struct hm_step_result {
   uint64_t cycles;
 } hm_step_result;
 
-/* Advances by one step. HM_OK, or the solver's error with positions, velocities and accelerations untouched. */
-int hm_step(const hm_mesh *mesh, const hm_motion *motion, const hm_solver *solver, hm_state *state,
-            hm_step_result *result);
+/* Advances by one step. HM_OK, or the solver's error with positions, velocities and accelerations untouched.
+ */
+int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
+            hm_step_result* result);
 
 /* Sum of alpha (|x_i - x_j| - L)^2 over all springs, positions [nodes * 3]. */
-double hm_spring_energy(const hm_mesh *mesh, const double *position);
+double hm_spring_energy(const hm_mesh* mesh, const double* position);
 
 #endif

@@ -14,37 +14,37 @@ typedef struct hm_spring {
   uint32_t link[2];   /* index into link_to of the link node[0] -> node[1] and back; set by hm_mesh_connect */
 } hm_spring;
 
-/* The mesh as the firmware sees it. Cells are the free nodes in ascending node order. A component p of a neuron
-   acts along coordinate axis[p]: {0, 1, 2}, or {0, 2} in a planar mesh, where y never moves. */
+/* The mesh as the firmware sees it. Cells are the free nodes in ascending node order. A component p of a
+   neuron acts along coordinate axis[p]: {0, 1, 2}, or {0, 2} in a planar mesh, where y never moves. */
 typedef struct hm_mesh {
   uint32_t nodes, springs, cells, components;
   uint32_t axis[3];
-  hm_spring *spring;             /* [springs] */
-  const double *beta_weight;     /* [nodes] mean alpha of the node's springs: beta_i = beta * dt^4 * this */
-  const uint32_t *cell_of_node;  /* [nodes] or HM_PINNED */
-  const uint32_t *node_of_cell;  /* [cells] */
-  const uint32_t *first_link;    /* [cells + 1] */
-  const uint32_t *link_to;       /* [first_link[cells]] neighbour cells, ascending in each row */
+  hm_spring* spring;            /* [springs] */
+  const double* beta_weight;    /* [nodes] mean alpha of the node's springs: beta_i = beta * dt^4 * this */
+  const uint32_t* cell_of_node; /* [nodes] or HM_PINNED */
+  const uint32_t* node_of_cell; /* [cells] */
+  const uint32_t* first_link;   /* [cells + 1] */
+  const uint32_t* link_to;      /* [first_link[cells]] neighbour cells, ascending in each row */
 } hm_mesh;
 
-/* One network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the cell's own
-   components, then each neighbour's in link order. bias and output: [cells * components]. */
+/* One network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the
+   cell's own components, then each neighbour's in link order. bias and output: [cells * components]. */
 typedef struct hm_network {
   double *weight, *bias, *output;
 } hm_network;
 
 /* Index of the first entry of the row of component p of a cell, and the row's length. */
-uint32_t hm_row_offset(const hm_mesh *mesh, uint32_t cell, uint32_t p);
-uint32_t hm_row_length(const hm_mesh *mesh, uint32_t cell);
-uint32_t hm_weight_count(const hm_mesh *mesh);
+uint32_t hm_row_offset(const hm_mesh* mesh, uint32_t cell, uint32_t p);
+uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell);
+uint32_t hm_weight_count(const hm_mesh* mesh);
 
 /* Finds each spring's two links. Returns HM_OK, or HM_ERROR_MESH if a spring between free nodes has none. */
-int hm_mesh_connect(hm_mesh *mesh);
+int hm_mesh_connect(hm_mesh* mesh);
 
 /* Writes W and I of math.md 2 about the expansion point network->output (V0), which stays as it is.
    predicted: C, [nodes * 3] in metres; h = dt^2 / 2; beta_scale = beta * dt^4.
    A spring of no length at the expansion point keeps its L = 0 part only (its direction is undefined). */
-void hm_network_build(const hm_mesh *mesh, const double *predicted, double h, double beta_scale,
-                      hm_network *network);
+void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
+                      hm_network* network);
 
 #endif

@@ -1,5 +1,6 @@
 /* THE register table: one list that the device, the driver, the documentation and the tests all read.
-   Plain C so that every one of them can. Addresses are bytes on the host bus; all registers are 32 bits wide. */
+   Plain C so that every one of them can. Addresses are bytes on the host bus; all registers are 32 bits wide.
+ */
 #ifndef HOPMESH_FIRMWARE_REGISTERS_H
 #define HOPMESH_FIRMWARE_REGISTERS_H
 
@@ -9,7 +10,8 @@
 #define HM_VERSION_VALUE 0x00010000u
 
 /* X(NAME, offset, access, reset, meaning). Access: RO read only; RW read and write; WO reads as zero;
-   W1C reads as it is, a written 1 clears the bit. A reset of 0 for a capability: set when the array is built. */
+   W1C reads as it is, a written 1 clears the bit. A reset of 0 for a capability: set when the array is built.
+ */
 #define HM_REGISTERS(X)                                                                                      \
   X(ID, 0x000, RO, HM_ID_VALUE, "the letters HOPM")                                                          \
   X(VERSION, 0x004, RO, HM_VERSION_VALUE, "major << 16 | minor")                                             \
@@ -23,8 +25,9 @@
   X(CAP_RECIPROCAL_BITS, 0x024, RO, 0, "width of the reciprocal's mantissa")                                 \
   X(CAP_LANES, 0x028, RO, 0, "multipliers per neuron")                                                       \
   X(CAP_BUS_BITS, 0x02C, RO, 0, "data width of this bus")                                                    \
-  X(CAP_FORMAT_WEIGHT, 0x030, RO, 0, "format of a weight: width | integer bits << 8 | rounding << 16 | "     \
-                                     "overflow << 24, modes numbered as SystemC does")                       \
+  X(CAP_FORMAT_WEIGHT, 0x030, RO, 0,                                                                         \
+    "format of a weight: width | integer bits << 8 | rounding << 16 | "                                      \
+    "overflow << 24, modes numbered as SystemC does")                                                        \
   X(CAP_FORMAT_BIAS, 0x034, RO, 0, "format of a bias")                                                       \
   X(CAP_FORMAT_DRIVE, 0x038, RO, 0, "format of u = s / N")                                                   \
   X(CAP_FORMAT_STATE, 0x03C, RO, 0, "format of V in the output stage and in the OUTPUT window")              \
@@ -64,7 +67,8 @@ enum { HM_STATUS_BUSY = 1, HM_STATUS_DONE = 2, HM_STATUS_CONVERGED = 4 };
 enum { HM_IRQ_DONE = 1, HM_IRQ_REFUSED = 2 };
 enum { HM_SCHEDULE_COLOURED, HM_SCHEDULE_SEQUENTIAL, HM_SCHEDULE_SYNCHRONOUS };
 enum { HM_NORMALISER_PRESCALED, HM_NORMALISER_RECIPROCAL, HM_NORMALISER_DIVIDER };
-/* Rounding and overflow modes as the format registers number them (the order of SystemC's sc_q_mode, sc_o_mode). */
+/* Rounding and overflow modes as the format registers number them (the order of SystemC's sc_q_mode,
+ * sc_o_mode). */
 enum { HM_RND, HM_RND_ZERO, HM_RND_MIN_INF, HM_RND_INF, HM_RND_CONV, HM_TRN, HM_TRN_ZERO };
 enum { HM_SAT, HM_SAT_ZERO, HM_SAT_SYM, HM_WRAP };
 

@@ -17,7 +17,8 @@ inline std::optional<SpecFault> format_fault(const char* key, const NumberFormat
   if (f.width < 4 || f.width > 32) return SpecFault{key, found, "4 to 32 bits"};
   if (f.integer_bits < least_integer_bits || f.integer_bits >= f.width)
     return SpecFault{key, found,
-                     "from " + std::to_string(least_integer_bits) + " integer bits to one less than the width" +
+                     "from " + std::to_string(least_integer_bits) +
+                         " integer bits to one less than the width" +
                          (least_integer_bits == 2 ? " (+1 needs two)" : "")};
   return std::nullopt;
 }
@@ -69,7 +70,8 @@ inline ArraySpec descent_array() {
   return a;
 }
 
-/// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated reciprocal.
+/// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated
+/// reciprocal.
 inline ArraySpec guarded_array() {
   ArraySpec a;
   a.name = "guarded";
@@ -105,7 +107,9 @@ inline std::vector<ArraySpec> presets() {
 }
 
 /// The array used where none is named; chosen by measurement, docs/decisions/0002-default-array.md.
-inline ArraySpec default_array() { return guarded_array(); }
+inline ArraySpec default_array() {
+  return guarded_array();
+}
 
 inline std::optional<ArraySpec> preset(const std::string& name) {
   for (const ArraySpec& a : presets())

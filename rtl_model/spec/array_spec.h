@@ -18,8 +18,12 @@ inline constexpr std::array<std::string_view, 3> schedule_names{"coloured", "seq
 enum class Normaliser : std::uint8_t { prescaled, reciprocal, divider };
 inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "reciprocal", "divider"};
 
-inline std::string_view name_of(Schedule s) { return schedule_names[static_cast<std::size_t>(s)]; }
-inline std::string_view name_of(Normaliser n) { return normaliser_names[static_cast<std::size_t>(n)]; }
+inline std::string_view name_of(Schedule s) {
+  return schedule_names[static_cast<std::size_t>(s)];
+}
+inline std::string_view name_of(Normaliser n) {
+  return normaliser_names[static_cast<std::size_t>(n)];
+}
 
 /// Number format of each class of signals. `bias` counts in units of weight (its point lies where it says).
 /// `accumulator` is used only if !exact_accumulator; otherwise it is derived, wide enough for every sum.
@@ -39,7 +43,7 @@ struct ArraySpec {
   Normaliser normaliser = Normaliser::divider;
   int reciprocal_bits = 18; ///< width of the reciprocal's mantissa (unsigned, truncated)
   bool exact_accumulator = true;
-  int bus_bits = 32;       ///< data width of the host bus: 32, 64 or 128
+  int bus_bits = 32;        ///< data width of the host bus: 32, 64 or 128
   double clock_mhz = 100.0; ///< only for times in seconds; changes neither bits nor cycles
   Formats formats;
 };
@@ -49,7 +53,8 @@ struct ArraySpec {
 inline NumberFormat exact_accumulator_format(const Formats& f, std::size_t taps) {
   const int product_fraction = f.weight.fraction_bits() + f.link.fraction_bits();
   const int fraction = std::max(product_fraction, f.bias.fraction_bits());
-  const int product_integer = f.weight.integer_bits + 1; // |link| <= 1: the magnitude is a weight's, plus sign room
+  const int product_integer =
+      f.weight.integer_bits + 1; // |link| <= 1: the magnitude is a weight's, plus sign room
   int growth = 0;
   while ((std::size_t{1} << growth) < taps + 1) ++growth;
   const int integer = std::max(product_integer, f.bias.integer_bits) + growth;

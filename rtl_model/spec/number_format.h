@@ -21,8 +21,12 @@ enum class Overflow : std::uint8_t { sat, sat_zero, sat_sym, wrap };
 inline constexpr std::array<std::string_view, 4> overflow_names{"SC_SAT", "SC_SAT_ZERO", "SC_SAT_SYM",
                                                                 "SC_WRAP"};
 
-inline std::string_view name_of(Rounding q) { return rounding_names[static_cast<std::size_t>(q)]; }
-inline std::string_view name_of(Overflow o) { return overflow_names[static_cast<std::size_t>(o)]; }
+inline std::string_view name_of(Rounding q) {
+  return rounding_names[static_cast<std::size_t>(q)];
+}
+inline std::string_view name_of(Overflow o) {
+  return overflow_names[static_cast<std::size_t>(o)];
+}
 
 /// fixed<W,I,Q,O>: `width` bits in two's complement, `integer_bits` of them before the point, sign included.
 /// A raw code c stands for the value c * 2^-fraction_bits().
@@ -54,8 +58,8 @@ std::optional<Mode> mode_named(std::string_view name, const std::array<std::stri
   return std::nullopt;
 }
 
-/// Reads "fixed<W,I>", "fixed<W,I,Q>" or "fixed<W,I,Q,O>"; SystemC's defaults (SC_TRN, SC_WRAP) where left out.
-/// Nothing when the text is no format. Widths are judged by validate() of array_spec.h.
+/// Reads "fixed<W,I>", "fixed<W,I,Q>" or "fixed<W,I,Q,O>"; SystemC's defaults (SC_TRN, SC_WRAP) where left
+/// out. Nothing when the text is no format. Widths are judged by validate() of array_spec.h.
 inline std::optional<NumberFormat> parse_format(const std::string& text) {
   static const std::regex shape(
       R"(\s*fixed\s*<\s*(\d{1,3})\s*,\s*(-?\d{1,3})\s*(?:,\s*(\w+)\s*)?(?:,\s*(\w+)\s*)?>\s*)");

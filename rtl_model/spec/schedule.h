@@ -10,11 +10,13 @@
 
 namespace hopmesh::spec {
 
-/// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it, ascending.
+/// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it,
+/// ascending.
 using Phases = std::vector<std::vector<std::uint32_t>>;
 
 /// Colours the cells so that no two joined cells share one (DSATUR; ties to the higher degree, then the lower
-/// number, so that every machine finds the same colouring). Two colours suffice exactly where the graph is bipartite.
+/// number, so that every machine finds the same colouring). Two colours suffice exactly where the graph is
+/// bipartite.
 inline std::vector<std::uint32_t> colour_cells(const Topology& t) {
   const std::size_t n = t.cells();
   constexpr std::uint32_t none = UINT32_MAX;

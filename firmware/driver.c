@@ -1,0 +1,294 @@
+/* From doubles to raw codes and back, over the bus. Registers and windows: docs/registers.md. */
+#include "firmware/driver.h"
+
+#include "firmware/registers.h"
+
+#define TRY(call)                                                                                            \
+  do {                                                                                                       \
+    const int error_ = (call);                                                                               \
+    if (error_ != HM_OK) return error_;                                                                      \
+  } while (0)
+
+/* ---- numbers --------------------------------------------------------------------------------------------
+ */
+
+static double power_of_two(int exponent) {
+  double value = 1;
+  for (; exponent > 0; --exponent) value *= 2;
+  for (; exponent < 0; ++exponent) value /= 2;
+  return value;
+}
+
+static double magnitude(double x) {
+  return x < 0 ? -x : x;
+}
+
+static int is_finite(double x) {
+  return x - x == 0;
+}
+
+static int64_t most(const hm_format* f) {
+  return ((int64_t)1 << (f->width - 1)) - 1;
+}
+
+static int fraction_bits(const hm_format* f) {
+  return f->width - f->integer_bits;
+}
+
+/* Is 1 to be added to `below`, the largest integer not above x, where x - below = rest in [0, 1)? */
+static int rounds_up(int64_t below, double rest, int rounding) {
+  const int negative = below < 0; /* for rest > 0 the sign of x is the sign of below */
+  if (rest == 0) return 0;
+  if (rounding == HM_TRN) return 0;
+  if (rounding == HM_TRN_ZERO) return negative;
+  if (rest != 0.5) return rest > 0.5;
+  switch (rounding) { /* a tie */
+  case HM_RND:
+    return 1;
+  case HM_RND_ZERO:
+    return negative;
+  case HM_RND_INF:
+    return !negative;
+  case HM_RND_CONV:
+    return (int)(below & 1);
+  default:
+    return 0; /* HM_RND_MIN_INF */
+  }
+}
+
+static int64_t bring_into_range(int64_t code, const hm_format* f) {
+  const int64_t high = most(f), low = f->overflow == HM_SAT_SYM ? -high : -high - 1;
+  if (code >= low && code <= high) return code;
+  if (f->overflow == HM_SAT_ZERO) return 0;
+  if (f->overflow != HM_WRAP) return code > high ? high : low;
+  const uint64_t sign = (uint64_t)1 << (f->width - 1), kept = (uint64_t)code & (2 * sign - 1);
+  return (int64_t)(kept ^ sign) - (int64_t)sign;
+}
+
+int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
+  double x = value * power_of_two(shift + fraction_bits(format));
+  const double far = 4611686018427387904.0; /* 2^62: beyond it every format is long full */
+  if (magnitude(x) > far) x = x < 0 ? -far : far;
+  int64_t below = (int64_t)x;
+  if ((double)below > x) below -= 1;
+  const int64_t code = below + rounds_up(below, x - (double)below, format->rounding);
+  const int64_t kept = bring_into_range(code, format);
+  if (kept != code) *clipped = 1;
+  return (int32_t)kept;
+}
+
+/* The largest power of two by which a value of this size can be multiplied and still fit. */
+static int room(double largest, const hm_format* f) {
+  const double limit = (double)most(f) / power_of_two(fraction_bits(f));
+  int shift = 0;
+  while (largest * 2 <= limit && shift < 1000) largest *= 2, ++shift;
+  while (largest > limit && shift > -1000) largest /= 2, --shift;
+  return shift;
+}
+
+static int32_t whole_units(double threshold, int fraction) {
+  const double units = threshold * power_of_two(fraction);
+  return units >= 2147483647.0 ? INT32_MAX : (int32_t)units;
+}
+
+/* ---- what stands behind the bus --------------------------------------------------------------------------
+ */
+
+static int read_register(const hm_driver* d, uint32_t offset, uint32_t* word) {
+  return d->bus->read(d->bus->context, offset, word);
+}
+
+static int write_register(const hm_driver* d, uint32_t offset, uint32_t word) {
+  return d->bus->write(d->bus->context, offset, word);
+}
+
+static int read_format(const hm_driver* d, uint32_t offset, hm_format* format) {
+  uint32_t word;
+  TRY(read_register(d, offset, &word));
+  *format = (hm_format){(int)(word & 255), (int)(int8_t)(word >> 8 & 255), (int)(word >> 16 & 255),
+                        (int)(word >> 24)};
+  return HM_OK;
+}
+
+static int expect(const hm_driver* d, uint32_t offset, uint32_t wanted, int otherwise) {
+  uint32_t word;
+  TRY(read_register(d, offset, &word));
+  return word == wanted ? HM_OK : otherwise;
+}
+
+static int expect_window(const hm_driver* d, uint32_t address, const uint32_t* wanted, uint32_t count) {
+  for (uint32_t done = 0; done < count;) {
+    const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
+    TRY(d->bus->read_burst(d->bus->context, address + 4 * done, d->buffer, part));
+    for (uint32_t k = 0; k < part; ++k)
+      if (d->buffer[k] != wanted[done + k]) return HM_ERROR_MESH;
+    done += part;
+  }
+  return HM_OK;
+}
+
+static int expect_mesh(const hm_driver* d, const hm_mesh* mesh) {
+  const uint32_t links = mesh->first_link[mesh->cells];
+  TRY(expect(d, HM_REG_CAP_CELLS, mesh->cells, HM_ERROR_MESH));
+  TRY(expect(d, HM_REG_CAP_NEURONS_PER_CELL, mesh->components, HM_ERROR_MESH));
+  TRY(expect(d, HM_REG_CAP_LINK_WORDS, links, HM_ERROR_MESH));
+  TRY(expect_window(d, HM_WINDOW_FIRST_LINK, mesh->first_link, mesh->cells + 1));
+  return expect_window(d, HM_WINDOW_LINK, mesh->link_to, links);
+}
+
+int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
+                   uint32_t buffer_words) {
+  *d = (hm_driver){.bus = bus, .buffer = buffer, .buffer_words = buffer_words};
+  if (buffer_words < 1) return HM_ERROR_SPACE;
+  TRY(expect(d, HM_REG_ID, HM_ID_VALUE, HM_ERROR_ID));
+  TRY(expect(d, HM_REG_VERSION, HM_VERSION_VALUE, HM_ERROR_ID));
+  TRY(expect_mesh(d, mesh));
+  TRY(read_register(d, HM_REG_CAP_NORMALISER, &d->normaliser));
+  TRY(read_format(d, HM_REG_CAP_FORMAT_WEIGHT, &d->weight));
+  TRY(read_format(d, HM_REG_CAP_FORMAT_BIAS, &d->bias));
+  TRY(read_format(d, HM_REG_CAP_FORMAT_STATE, &d->state));
+  return write_register(d, HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+}
+
+/* ---- loading a network -----------------------------------------------------------------------------------
+ */
+
+/* Words on their way into a window, sent whenever the buffer is full. */
+typedef struct stream {
+  hm_driver* driver;
+  uint32_t address, waiting;
+} stream;
+
+static int flush(stream* s) {
+  const hm_bus* bus = s->driver->bus;
+  if (s->waiting == 0) return HM_OK;
+  TRY(bus->write_burst(bus->context, s->address, s->driver->buffer, s->waiting));
+  s->address += 4 * s->waiting;
+  s->waiting = 0;
+  return HM_OK;
+}
+
+static int put(stream* s, double value, int shift, const hm_format* format) {
+  int clipped = 0;
+  s->driver->buffer[s->waiting++] = (uint32_t)hm_quantise(value, shift, format, &clipped);
+  s->driver->clipped += (uint32_t)clipped;
+  return s->waiting == s->driver->buffer_words ? flush(s) : HM_OK;
+}
+
+static int all_finite(const double* values, uint32_t count) {
+  for (uint32_t k = 0; k < count; ++k)
+    if (!is_finite(values[k])) return 0;
+  return 1;
+}
+
+static double largest_of(const double* values, uint32_t count) {
+  double largest = 0;
+  for (uint32_t k = 0; k < count; ++k)
+    if (magnitude(values[k]) > largest) largest = magnitude(values[k]);
+  return largest;
+}
+
+/* One power of two for the whole network: W stays symmetric, and u = s / N does not see it. */
+static int block_exponent(const hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
+  const double w = largest_of(network->weight, hm_weight_count(mesh));
+  const double b = largest_of(network->bias, mesh->cells * mesh->components);
+  if (w == 0 && b == 0) return 0;
+  if (w == 0) return room(b, &d->bias);
+  if (b == 0) return room(w, &d->weight);
+  const int for_weights = room(w, &d->weight), for_biases = room(b, &d->bias);
+  return for_weights < for_biases ? for_weights : for_biases;
+}
+
+/* What a prescaled row is divided by: N = sum |w| + |I|, or 1 for an empty row. */
+static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t cell, uint32_t p) {
+  const double* row = network->weight + hm_row_offset(mesh, cell, p);
+  double norm = magnitude(network->bias[cell * mesh->components + p]);
+  for (uint32_t k = 0; k < hm_row_length(mesh, cell); ++k) norm += magnitude(row[k]);
+  return norm > 0 ? norm : 1;
+}
+
+static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
+  stream weights = {d, HM_WINDOW_WEIGHT, 0};
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const double* row = network->weight + hm_row_offset(mesh, c, p);
+      const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
+      for (uint32_t k = 0; k < hm_row_length(mesh, c); ++k)
+        TRY(put(&weights, row[k] / norm, shift, &d->weight));
+    }
+  return flush(&weights);
+}
+
+static int load_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
+  stream biases = {d, HM_WINDOW_BIAS, 0};
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
+      TRY(put(&biases, network->bias[c * mesh->components + p] / norm, shift, &d->bias));
+    }
+  return flush(&biases);
+}
+
+static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
+  const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
+  stream outputs = {d, HM_WINDOW_OUTPUT, 0};
+  for (uint32_t k = 0; k < mesh->cells * mesh->components; ++k)
+    TRY(put(&outputs, network->output[k], 0, &d->state));
+  d->clipped = clipped;
+  return flush(&outputs);
+}
+
+/* ---- one relaxation --------------------------------------------------------------------------------------
+ */
+
+static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
+  TRY(write_register(d, HM_REG_THRESHOLD, (uint32_t)whole_units(threshold, fraction_bits(&d->state))));
+  TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
+  TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
+  TRY(d->bus->wait(d->bus->context));
+  return write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);
+}
+
+static int read_counters(const hm_driver* d, hm_relaxation* result) {
+  uint32_t status, low, high;
+  TRY(read_register(d, HM_REG_STATUS, &status));
+  if (!(status & HM_STATUS_DONE)) return HM_ERROR_BUSY;
+  TRY(read_register(d, HM_REG_SWEEPS, &result->sweeps));
+  TRY(read_register(d, HM_REG_CYCLES_LO, &low));
+  TRY(read_register(d, HM_REG_CYCLES_HI, &high));
+  result->converged = (status & HM_STATUS_CONVERGED) != 0;
+  result->cycles = (uint64_t)high << 32 | low;
+  return HM_OK;
+}
+
+static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* network) {
+  const uint32_t count = mesh->cells * mesh->components;
+  const double last_place = 1 / power_of_two(fraction_bits(&d->state));
+  for (uint32_t done = 0; done < count;) {
+    const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
+    TRY(d->bus->read_burst(d->bus->context, HM_WINDOW_OUTPUT + 4 * done, d->buffer, part));
+    for (uint32_t k = 0; k < part; ++k) network->output[done + k] = (int32_t)d->buffer[k] * last_place;
+    done += part;
+  }
+  return HM_OK;
+}
+
+int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
+                    uint32_t max_sweeps, hm_relaxation* result) {
+  hm_driver* d = driver;
+  const uint32_t neurons = mesh->cells * mesh->components;
+  if (!all_finite(network->weight, hm_weight_count(mesh)) || !all_finite(network->bias, neurons) ||
+      !all_finite(network->output, neurons))
+    return HM_ERROR_NUMBER;
+  const int shift = d->normaliser == HM_NORMALISER_PRESCALED ? 0 : block_exponent(d, mesh, network);
+  d->clipped = 0;
+  uint32_t status;
+  TRY(read_register(d, HM_REG_STATUS, &status));
+  if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
+  TRY(load_rows(d, mesh, network, shift));
+  TRY(load_biases(d, mesh, network, shift));
+  TRY(load_outputs(d, mesh, network));
+  TRY(start_and_wait(d, threshold, max_sweeps));
+  TRY(read_counters(d, result));
+  return read_outputs(d, mesh, network);
+}
