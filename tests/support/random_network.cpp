@@ -1,0 +1,192 @@
+// Random meshes, arrays and codes.
+#include "tests/support/random_network.h"
+
+#include "rtl_model/spec/array_rules.h"
+
+#include <set>
+
+namespace hopmesh::tests {
+namespace {
+
+spec::NumberFormat random_format(Dice& dice, int least_integer_bits) {
+  spec::NumberFormat f;
+  f.width = static_cast<int>(dice.between(4, dice.one_in(2) ? 16 : 32));
+  const int most = dice.one_in(3) ? f.width - 1 : std::min(f.width - 1, least_integer_bits + 2);
+  f.integer_bits = static_cast<int>(dice.between(least_integer_bits, most));
+  f.rounding = static_cast<spec::Rounding>(dice.below(7));
+  f.overflow = static_cast<spec::Overflow>(dice.below(4));
+  return f;
+}
+
+Edges random_edges(Dice& dice, std::size_t cells) {
+  Edges edges;
+  const bool tree = dice.one_in(2);
+  for (std::uint32_t c = 1; c < cells && tree; ++c)
+    edges.push_back({static_cast<std::uint32_t>(dice.below(c)), c});
+  const std::uint64_t more = dice.below(2 * cells + 1);
+  for (std::uint64_t k = 0; k < more && cells > 1; ++k) {
+    const auto a = static_cast<std::uint32_t>(dice.below(cells)),
+               b = static_cast<std::uint32_t>(dice.below(cells));
+    if (a != b) edges.push_back({a, b});
+  }
+  return edges;
+}
+
+/// One row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
+void fill(Dice& dice, const spec::NumberFormat& format, std::int32_t* first, std::size_t count) {
+  const std::uint64_t character = dice.below(8);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::int64_t code = dice.code(format);
+    if (character == 0) code = 0;
+    if (character == 1) code = format.max_raw();
+    if (character == 2) code = format.min_raw();
+    if (character == 3) code = dice.between(0, format.max_raw());
+    first[k] = static_cast<std::int32_t>(code);
+  }
+}
+
+} // namespace
+
+std::int64_t Dice::code(const spec::NumberFormat& format) {
+  switch (below(8)) {
+  case 0:
+    return 0;
+  case 1:
+    return one_in(2) ? format.max_raw() : format.min_raw();
+  case 2:
+    return one_in(2) ? 1 : -1;
+  case 3:
+    return (one_in(2) ? 1 : -1) * (std::int64_t{1} << below(format.width - 1));
+  default:
+    return between(format.min_raw(), format.max_raw());
+  }
+}
+
+spec::Topology topology_of(std::size_t cells, int neurons_per_cell, const Edges& edges) {
+  std::vector<std::set<std::uint32_t>> neighbours(cells);
+  for (const auto& [a, b] : edges) {
+    neighbours[a].insert(b);
+    neighbours[b].insert(a);
+  }
+  spec::Topology t;
+  t.neurons_per_cell = neurons_per_cell;
+  t.first_link.push_back(0);
+  for (const auto& row : neighbours) {
+    t.link_to.insert(t.link_to.end(), row.begin(), row.end());
+    t.first_link.push_back(static_cast<std::uint32_t>(t.link_to.size()));
+  }
+  return t;
+}
+
+spec::Topology grid_topology(std::size_t rows, std::size_t columns, bool diagonals, int neurons_per_cell) {
+  Edges edges;
+  const auto cell = [&](std::size_t r, std::size_t c) { return static_cast<std::uint32_t>(r * columns + c); };
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (c + 1 < columns) edges.push_back({cell(r, c), cell(r, c + 1)});
+      if (r + 1 < rows) edges.push_back({cell(r, c), cell(r + 1, c)});
+      if (diagonals && r + 1 < rows && c + 1 < columns) {
+        edges.push_back({cell(r, c), cell(r + 1, c + 1)});
+        edges.push_back({cell(r, c + 1), cell(r + 1, c)});
+      }
+    }
+  return topology_of(rows * columns, neurons_per_cell, edges);
+}
+
+spec::Topology ring_topology(std::size_t cells, int neurons_per_cell) {
+  Edges edges;
+  for (std::uint32_t c = 0; c < cells; ++c)
+    if (cells > 1) edges.push_back({c, static_cast<std::uint32_t>((c + 1) % cells)});
+  return topology_of(cells, neurons_per_cell, edges);
+}
+
+spec::Topology random_topology(Dice& dice, std::size_t most_cells) {
+  const int per_cell = dice.one_in(3) ? 2 : 3;
+  const std::size_t cells =
+      1 + dice.below(dice.one_in(3) ? std::min<std::size_t>(most_cells, 12) : most_cells);
+  switch (dice.below(8)) {
+  case 0:
+    return topology_of(1, per_cell, {});
+  case 1:
+    return topology_of(cells, per_cell, {}); // isolated cells
+  case 2:
+    return ring_topology(cells, per_cell);
+  case 3:
+  case 4: {
+    const std::size_t rows = 1 + dice.below(cells);
+    return grid_topology(rows, std::max<std::size_t>(1, cells / rows), dice.one_in(2), per_cell);
+  }
+  default:
+    return topology_of(cells, per_cell, random_edges(dice, cells));
+  }
+}
+
+spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
+  spec::ArraySpec a;
+  a.name = "random";
+  do {
+    a.schedule = static_cast<spec::Schedule>(dice.below(3));
+    a.normaliser = static_cast<spec::Normaliser>(dice.below(3));
+    a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, 64) : dice.between(1, 6));
+    a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
+    a.bus_bits = 32 << dice.below(3);
+    a.exact_accumulator = dice.one_in(2);
+    a.formats.weight = random_format(dice, 1);
+    a.formats.bias = random_format(dice, 1);
+    a.formats.drive = random_format(dice, 2);
+    a.formats.state = random_format(dice, 2);
+    a.formats.link = dice.one_in(2) ? a.formats.state : random_format(dice, 2);
+    a.formats.accumulator = random_format(dice, 1);
+    a.formats.accumulator.width = static_cast<int>(dice.between(4, 62));
+    const int width = a.formats.accumulator.width;
+    a.formats.accumulator.integer_bits =
+        static_cast<int>(dice.between(1, std::min(width, dice.one_in(2) ? 12 : 62)));
+  } while (spec::validate(a, taps));
+  return a;
+}
+
+ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology) {
+  ArrayJob job;
+  job.array = array;
+  job.topology = topology;
+  job.weight.resize(topology.weight_words());
+  for (std::size_t c = 0; c < topology.cells(); ++c)
+    for (int p = 0; p < topology.neurons_per_cell; ++p)
+      fill(dice, array.formats.weight, &job.weight[topology.row_offset(c, p)], topology.taps(c));
+  // The same few characters for the biases, cell by cell, so that whole rows of zeros and of extremes occur.
+  job.bias.resize(topology.neurons());
+  for (std::size_t k = 0; k < topology.neurons(); ++k) fill(dice, array.formats.bias, &job.bias[k], 1);
+  job.start.resize(topology.neurons());
+  const std::int64_t one = array.formats.state.one_raw();
+  for (std::int32_t& v : job.start) {
+    const std::uint64_t kind = dice.below(4);
+    v = static_cast<std::int32_t>(kind == 0   ? (dice.one_in(2) ? one : -one)
+                                  : kind == 1 ? dice.code(array.formats.state) // clamped by the array
+                                              : dice.between(-one, one));
+  }
+  job.threshold =
+      dice.one_in(3) ? 0 : static_cast<std::uint32_t>(dice.below(static_cast<std::uint64_t>(one) / 4 + 2));
+  job.max_sweeps = static_cast<std::uint32_t>(dice.below(dice.one_in(4) ? 30 : 6)); // 0 is taken as 1
+  return job;
+}
+
+ArrayJob random_job(std::uint64_t seed, std::size_t most_cells) {
+  Dice dice(seed);
+  const spec::Topology topology = random_topology(dice, most_cells);
+  return random_codes(dice, random_array(dice, topology.most_taps()), topology);
+}
+
+std::string describe(const ArrayJob& job) {
+  const spec::ArraySpec& a = job.array;
+  const auto name = [](std::string_view v) { return std::string(v); };
+  return std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell) +
+         ", " + name(spec::name_of(a.schedule)) + ", " + name(spec::name_of(a.normaliser)) + " " +
+         std::to_string(a.reciprocal_bits) + ", lanes " + std::to_string(a.lanes) + ", bus " +
+         std::to_string(a.bus_bits) + ", weight " + a.formats.weight.text() + ", bias " +
+         a.formats.bias.text() + ", accumulator " +
+         (a.exact_accumulator ? "exact" : a.formats.accumulator.text()) + ", drive " +
+         a.formats.drive.text() + ", state " + a.formats.state.text() + ", link " + a.formats.link.text() +
+         ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);
+}
+
+} // namespace hopmesh::tests
