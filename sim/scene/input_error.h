@@ -3,11 +3,13 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hopmesh::scene {
 
-/// Thrown for every mistake in scenes, arrays, mesh files and overrides; the program prints what() and exits with 2.
+/// Thrown for every mistake in scenes, arrays, mesh files and overrides; the program prints what() and exits
+/// with 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,5 +21,8 @@ InputError input_error(const std::string& file, int line, const std::string& key
 
 /// The valid name closest to `name` by edit distance, or "" if none is close enough to be a typing mistake.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& valid);
+
+/// A piece of somebody's file as a message may show it: in quotes, printable, cut where it gets long.
+std::string in_quotes(std::string_view text);
 
 } // namespace hopmesh::scene

@@ -28,8 +28,8 @@ struct Mesh {
   std::size_t nodes() const { return position.size(); }
 };
 
-/// Builds the mesh of a scene. Throws InputError (input_error.h) for an unreadable or broken mesh file, a pin that
-/// names no node, a mesh with no free node or no spring.
+/// Builds the mesh of a scene. Throws InputError (input_error.h) for an unreadable or broken mesh file, a pin
+/// that names no node, a mesh with no free node or no spring.
 Mesh build_mesh(const Scene& scene);
 
 } // namespace hopmesh::scene

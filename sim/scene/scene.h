@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -26,11 +27,11 @@ struct MeshSpec {
   double scale = 1.0;              ///< file meshes: factor on coordinates
   double structural = 1.0, shear = 1.0, bend = 0.0; ///< alpha of each kind; 0: no such spring
   std::vector<Pin> pinned;
-  double pin_band = 0.02;          ///< file meshes: `top` is the part of the extent within this share of the highest
-  std::string up = "z";            ///< file meshes: the axis along which `top` is highest: x, y or z
-  double mass = 1.0;               ///< kg per node
-  std::optional<double> rest;      ///< rest length of every spring; none: natural (as built)
-  bool planar = false;             ///< two neurons a node, along x and z
+  double pin_band = 0.02; ///< file meshes: `top` is the part of the extent within this share of the highest
+  std::string up = "z";   ///< file meshes: the axis along which `top` is highest: x, y or z
+  double mass = 1.0;      ///< kg per node
+  std::optional<double> rest; ///< rest length of every spring; none: natural (as built)
+  bool planar = false;        ///< two neurons a node, along x and z
 };
 
 enum class Formulation { probe };
@@ -63,7 +64,8 @@ struct ForceSpec {
 
 struct Scene {
   std::string name;
-  std::string source; ///< the file it was read from
+  std::string source;               ///< the file it was read from
+  std::map<std::string, int> lines; ///< where the source sets each key, for messages; 0: an override did
   MeshSpec mesh;
   MotionSpec motion;
   ProbeSpec probe;

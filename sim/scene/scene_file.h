@@ -13,14 +13,15 @@ struct Inputs {
   spec::ArraySpec array;
 };
 
-/// `scene`: a path, or the name of a shipped scene. `array`: a path, the name of a preset, or "" for the default.
-/// `overrides`: "key.path=value" with keys of the scene or of the array. Checks everything that can be checked
-/// without building the mesh, the array's rules included.
+/// `scene`: a path, or the name of a shipped scene. `array`: a path, the name of a preset, or "" for the
+/// default. `overrides`: "key.path=value" with keys of the scene or of the array. Checks everything that can
+/// be checked without building the mesh, the array's rules included.
 Inputs read_inputs(const std::string& scene, const std::string& array,
                    const std::vector<std::string>& overrides);
 
 /// Names of the shipped scenes, ascending, and the folder they are in.
 std::vector<std::string> shipped_scenes();
+std::string shipped_folder();
 
 /// The whole description with every default filled in, as TOML that read_inputs takes back.
 std::string scene_text(const Scene& scene);

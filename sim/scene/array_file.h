@@ -1,0 +1,14 @@
+// Located keys -> an array, checked against the rules of rtl_model/spec.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+#include "sim/scene/toml_source.h"
+
+namespace hopmesh::scene {
+
+/// The array that `array` names (a preset, a file, or "" for the default) with overrides of array.* and
+/// formats.*.
+spec::ArraySpec read_array(const std::string& array,
+                           const std::vector<std::pair<std::string, std::string>>& overrides);
+
+} // namespace hopmesh::scene

@@ -1,0 +1,17 @@
+// The steps of build_mesh, each with a source of its own.
+#pragma once
+
+#include "sim/scene/mesh.h"
+
+namespace hopmesh::scene {
+
+/// Nodes, springs (rest lengths still 0) and triangles of a grid.
+void build_grid(const Scene& scene, Mesh& mesh);
+
+/// The same from the scene's mesh file.
+void build_from_file(const Scene& scene, Mesh& mesh);
+
+/// Marks the pinned nodes. Throws InputError for a pin that names no node of this mesh.
+void pin_nodes(const Scene& scene, Mesh& mesh);
+
+} // namespace hopmesh::scene

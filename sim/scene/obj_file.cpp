@@ -1,0 +1,216 @@
+// Reads an OBJ in two walks: lines to records, then records to a checked surface (faces may stand before
+// vertices).
+#include "sim/scene/obj_file.h"
+
+#include "sim/scene/input_error.h"
+#include "sim/scene/limits.h"
+#include "sim/scene/whole_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace hopmesh::scene {
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr double farthest = 1e15; // squares and their sums stay finite
+
+/// A corner as written, both indices made absolute and counted from 0; texture -1: none.
+struct RawCorner {
+  std::int64_t vertex, texture;
+  int line;
+};
+
+/// The words of one line, taken one at a time; a comment ends the line.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line.substr(0, line.find('#'))) {}
+  std::string_view next() {
+    const auto first = rest_.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) return {};
+    rest_.remove_prefix(first);
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r"));
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const std::string& path) : path_(path) {}
+
+  ObjSurface read() {
+    read_lines(read_whole_file(path_, "an OBJ mesh", most_bytes));
+    if (first_corner_.empty()) fail(0, "no faces (lines \"f ...\")", "an OBJ mesh with at least one");
+    first_corner_.push_back(corners_.size());
+    check_indices();
+    check_used();
+    make_edges();
+    make_triangles();
+    return std::move(surface_);
+  }
+
+ private:
+  [[noreturn]] void fail(int line, const std::string& found, const std::string& expected) const {
+    throw input_error(path_, line, "", found, expected);
+  }
+
+  void read_lines(const std::string& text) {
+    std::string_view rest(text);
+    while (!rest.empty()) {
+      ++line_;
+      const std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+      read_line(Words(line));
+    }
+  }
+
+  void read_line(Words words) {
+    const std::string_view keyword = words.next();
+    if (keyword == "v")
+      read_vertex(words);
+    else if (keyword == "vt")
+      read_texture(words);
+    else if (keyword == "f")
+      read_face(words);
+  }
+
+  double number(std::string_view word, const char* name) const {
+    std::string_view digits = word;
+    if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
+    double x = 0;
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+    if (failure != std::errc() || end != digits.data() + digits.size())
+      fail(line_, word.empty() ? "no " + std::string(name) : in_quotes(word),
+           fmt::format("a number for {}", name));
+    if (!(std::abs(x) <= farthest))
+      fail(line_, in_quotes(word), fmt::format("a number within 1e15 for {}", name));
+    return x;
+  }
+
+  void read_vertex(Words& words) {
+    const double x = number(words.next(), "x"), y = number(words.next(), "y"), z = number(words.next(), "z");
+    surface_.position.push_back({x, y, z});
+    vertex_line_.push_back(line_);
+    if (surface_.position.size() > std::size_t(most_nodes))
+      fail(line_, "one vertex more", fmt::format("at most {} nodes", most_nodes));
+  }
+
+  /// v points up in OBJ and down in pictures.
+  void read_texture(Words& words) {
+    const double u = number(words.next(), "u");
+    const std::string_view v = words.next();
+    texture_.push_back({float(u), float(1 - (v.empty() ? 0.0 : number(v, "v")))});
+  }
+
+  void read_face(Words& words) {
+    first_corner_.push_back(corners_.size());
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      corners_.push_back(corner(word));
+    const std::size_t count = corners_.size() - first_corner_.back();
+    if (count < 3) fail(line_, fmt::format("a face of {} corners", count), "at least three");
+  }
+
+  /// v, v/vt, v//vn or v/vt/vn; normals are of no use to a mesh that moves.
+  RawCorner corner(std::string_view word) const {
+    const auto slash = word.find('/');
+    RawCorner corner{index(word.substr(0, slash), surface_.position.size(), word), -1, line_};
+    if (slash == std::string_view::npos) return corner;
+    const std::string_view rest = word.substr(slash + 1);
+    const auto second = rest.find('/');
+    const std::string_view texture = rest.substr(0, second);
+    if (!texture.empty())
+      corner.texture = index(texture, texture_.size(), word);
+    else if (second == std::string_view::npos)
+      fail(line_, in_quotes(word), "a texture index after the /");
+    if (second != std::string_view::npos && rest.find('/', second + 1) != std::string_view::npos)
+      fail(line_, in_quotes(word), "at most v/vt/vn");
+    return corner;
+  }
+
+  /// Indices count from 1; negative ones count back from the latest.
+  std::int64_t index(std::string_view digits, std::size_t so_far, std::string_view word) const {
+    std::int64_t k = 0;
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
+    if (failure != std::errc() || end != digits.data() + digits.size() || k == 0)
+      fail(line_, in_quotes(word), "a corner v, v/vt, v//vn or v/vt/vn with indices from 1");
+    if (k < 0 && k + std::int64_t(so_far) < 0)
+      fail(line_, in_quotes(word), fmt::format("at most {} back, that many stand above", so_far));
+    return k > 0 ? k - 1 : k + std::int64_t(so_far);
+  }
+
+  void check_indices() const {
+    const std::int64_t nodes = surface_.position.size(), textures = texture_.size();
+    for (const RawCorner& c : corners_) {
+      if (c.vertex >= nodes)
+        fail(c.line, fmt::format("vertex {}", c.vertex + 1), fmt::format("1 to {}", nodes));
+      if (c.texture >= textures)
+        fail(c.line, fmt::format("texture corner {}", c.texture + 1),
+             fmt::format("1 to {} (lines \"vt\")", textures));
+    }
+  }
+
+  /// A node without a face has no spring: it would fall through the world and nobody would see it.
+  void check_used() const {
+    std::vector<bool> used(surface_.position.size());
+    for (const RawCorner& c : corners_) used[c.vertex] = true;
+    const auto lost = std::find(used.begin(), used.end(), false);
+    if (lost == used.end()) return;
+    const auto node = lost - used.begin();
+    fail(vertex_line_[node], fmt::format("vertex {} in no face", node + 1), "only vertices that faces use");
+  }
+
+  void make_edges() {
+    auto& edges = surface_.edges;
+    edges.reserve(corners_.size());
+    for (std::size_t f = 0; f + 1 < first_corner_.size(); ++f)
+      for (std::size_t k = first_corner_[f]; k < first_corner_[f + 1]; ++k)
+        edges.push_back(edge(corners_[k], corners_[k + 1 < first_corner_[f + 1] ? k + 1 : first_corner_[f]]));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  }
+
+  std::array<std::uint32_t, 2> edge(const RawCorner& a, const RawCorner& b) const {
+    if (a.vertex == b.vertex)
+      fail(a.line, fmt::format("vertex {} twice in a row", a.vertex + 1), "two ends of an edge");
+    if (surface_.position[a.vertex] == surface_.position[b.vertex])
+      fail(a.line, fmt::format("vertices {} and {} at one place", a.vertex + 1, b.vertex + 1),
+           "edges with a length");
+    return {std::uint32_t(std::min(a.vertex, b.vertex)), std::uint32_t(std::max(a.vertex, b.vertex))};
+  }
+
+  void make_triangles() {
+    surface_.triangles.reserve(corners_.size());
+    for (std::size_t f = 0; f + 1 < first_corner_.size(); ++f)
+      for (std::size_t k = first_corner_[f] + 1; k + 1 < first_corner_[f + 1]; ++k)
+        surface_.triangles.push_back(
+            {finished(corners_[first_corner_[f]]), finished(corners_[k]), finished(corners_[k + 1])});
+  }
+
+  Corner finished(const RawCorner& c) const {
+    if (c.texture < 0) return {std::uint32_t(c.vertex), 0, 0};
+    return {std::uint32_t(c.vertex), texture_[c.texture][0], texture_[c.texture][1]};
+  }
+
+  std::string path_;
+  int line_ = 0;
+  ObjSurface surface_;
+  std::vector<int> vertex_line_;
+  std::vector<std::array<float, 2>> texture_;
+  std::vector<RawCorner> corners_;
+  std::vector<std::size_t> first_corner_; ///< of each face, and the end
+};
+
+} // namespace
+
+ObjSurface read_obj(const std::string& path) {
+  return ObjReader(path).read();
+}
+
+} // namespace hopmesh::scene

@@ -1,0 +1,206 @@
+// Every key of a scene, its range, and the rules between keys. docs/scene.md explains what the keys mean.
+#include "sim/scene/scene_reader.h"
+
+#include "sim/scene/key_reader.h"
+#include "sim/scene/limits.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace hopmesh::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t most_count = 1'000'000'000; // of steps and sweeps: years of any machine
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// A relative mesh path is meant from the scene file's folder; one given by --set from where the user stands.
+std::string resolved(const std::string& file, const std::string& scene_path, bool overridden) {
+  const fs::path folder = overridden ? fs::path() : fs::path(scene_path).parent_path();
+  return fs::absolute(folder / file).lexically_normal().string();
+}
+
+Pin read_pin(const TomlSource& source, const TomlValue& item, const std::string& key) {
+  const std::string expected = one_of(pin_names) + ", or a node number";
+  if (const auto* number = item.as<std::int64_t>()) {
+    if (*number >= 0) return *number;
+  } else if (const auto* name = item.as<std::string>()) {
+    for (const std::string& valid : pin_names)
+      if (*name == valid) return *name;
+    throw source.error(item, key, expected, nearest_name(*name, pin_names));
+  }
+  throw source.error(item, key, expected);
+}
+
+class SceneReader {
+ public:
+  SceneReader(const TomlSource& source, const std::string& path) : source_(source), keys_(source) {
+    scene_.source = path;
+    scene_.name = fs::path(path).stem().string();
+    for (const auto& [key, value] : source.values()) scene_.lines[key] = value.line;
+  }
+
+  Scene read() {
+    keys_.text("name", scene_.name, "a name in quotes");
+    read_shape();
+    read_springs();
+    read_pins();
+    read_node();
+    read_motion();
+    read_probe();
+    read_relax();
+    read_force();
+    keys_.refuse_unknown();
+    check_shape();
+    return scene_;
+  }
+
+ private:
+  InputError error(const std::string& key, const std::string& expected) const {
+    return source_.error(*source_.find(key), key, expected);
+  }
+
+  void read_shape() {
+    MeshSpec& mesh = scene_.mesh;
+    Grid grid;
+    keys_.integer("mesh.grid.rows", grid.rows, 1, int(most_nodes));
+    keys_.integer("mesh.grid.columns", grid.columns, 1, int(most_nodes));
+    keys_.real("mesh.grid.pitch", grid.pitch, above_zero);
+    const TomlValue* table = source_.find("mesh.grid");
+    if (table && table->as<TomlTable>()) mesh.grid = grid;
+    std::string file;
+    if (keys_.text("mesh.file", file, "the path of an OBJ file"))
+      mesh.file = resolved(file, scene_.source, scene_.lines["mesh.file"] == 0);
+    keys_.real("mesh.scale", mesh.scale, above_zero);
+    keys_.real("mesh.pin_band", mesh.pin_band, zero_to_one);
+    keys_.choice("mesh.up", mesh.up, {"x", "y", "z"});
+  }
+
+  void read_springs() {
+    MeshSpec& mesh = scene_.mesh;
+    if (mesh.file) mesh.shear = mesh.bend = 0; // the edges of a file are all alike
+    keys_.real("mesh.springs.structural", mesh.structural, from_zero);
+    keys_.real("mesh.springs.shear", mesh.shear, from_zero);
+    keys_.real("mesh.springs.bend", mesh.bend, from_zero);
+  }
+
+  void read_pins() {
+    const TomlValue* found = keys_.value("mesh.pinned");
+    if (!found) return;
+    if (const auto* items = found->as<std::vector<TomlValue>>())
+      for (const TomlValue& item : *items)
+        scene_.mesh.pinned.push_back(read_pin(source_, item, "mesh.pinned"));
+    else
+      scene_.mesh.pinned = {read_pin(source_, *found, "mesh.pinned")};
+  }
+
+  void read_node() {
+    MeshSpec& mesh = scene_.mesh;
+    keys_.real("mesh.mass", mesh.mass, above_zero);
+    keys_.flag("mesh.planar", mesh.planar);
+    const TomlValue* rest = keys_.value("mesh.rest");
+    if (!rest) return;
+    const auto* word = rest->as<std::string>();
+    if (word && *word == "natural") return;
+    constexpr Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};
+    if (word) throw source_.error(*rest, "mesh.rest", length.words, nearest_name(*word, {"natural"}));
+    mesh.rest = keys_.number(*rest, "mesh.rest", length);
+  }
+
+  void read_motion() {
+    MotionSpec& motion = scene_.motion;
+    const TomlValue* formulation = keys_.value("motion.formulation");
+    const auto* name = formulation ? formulation->as<std::string>() : nullptr;
+    if (name && *name == "incremental")
+      throw error("motion.formulation",
+                  "\"probe\": the incremental formulation is planned, only probe is offered");
+    std::string probe = "probe";
+    keys_.choice("motion.formulation", probe, {"probe"});
+    keys_.real("motion.time_step", motion.time_step, above_zero);
+    keys_.integer("motion.steps", motion.steps, 1, most_count);
+    keys_.real("motion.friction", motion.friction, zero_to_one);
+  }
+
+  void read_probe() {
+    ProbeSpec& probe = scene_.probe;
+    keys_.real("probe.gamma", probe.gamma, from_zero);
+    keys_.real("probe.beta", probe.beta, from_zero);
+    keys_.real("probe.acceleration_memory", probe.acceleration_memory, zero_to_one);
+    keys_.choice("probe.energy_springs", probe.energy_springs, {"own", "all"});
+    keys_.choice("probe.force_on", probe.force_on, {"velocity", "acceleration"});
+  }
+
+  void read_relax() {
+    keys_.real("relax.threshold", scene_.relax.threshold, from_zero);
+    keys_.integer("relax.max_sweeps", scene_.relax.max_sweeps, 1, most_count);
+    keys_.integer("relax.expansions", scene_.relax.expansions, 1, 1000);
+  }
+
+  void read_force() {
+    keys_.vector("force.gravity", scene_.force.gravity);
+    Vector3 wind{};
+    if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
+  }
+
+  void check_shape() const {
+    const MeshSpec& mesh = scene_.mesh;
+    if (mesh.grid && mesh.file) throw error("mesh.file", "either mesh.grid or mesh.file, not both");
+    if (!mesh.grid && !mesh.file)
+      throw input_error(scene_.source, 0, "mesh", "no shape",
+                        "mesh.grid = { rows, columns, pitch } or mesh.file");
+    if (mesh.grid)
+      check_grid(*mesh.grid);
+    else
+      check_file();
+  }
+
+  void check_grid(const Grid& grid) const {
+    const std::int64_t nodes = std::int64_t{grid.rows} * grid.columns;
+    if (nodes < 2 || nodes > most_nodes)
+      throw scene_error(scene_, "mesh.grid", fmt::format("{} x {} nodes", grid.rows, grid.columns),
+                        fmt::format("2 to {} nodes", most_nodes));
+    for (const char* key : {"mesh.scale", "mesh.pin_band", "mesh.up"}) // they would have no effect
+      if (source_.find(key)) throw error(key, "this key only beside mesh.file");
+  }
+
+  void check_file() const {
+    if (scene_.mesh.shear != 0)
+      throw error("mesh.springs.shear", "0: edges of a mesh file are structural springs");
+    if (scene_.mesh.bend != 0)
+      throw error("mesh.springs.bend", "0: edges of a mesh file are structural springs");
+  }
+
+  const TomlSource& source_;
+  KeyReader keys_;
+  Scene scene_;
+};
+
+} // namespace
+
+void override_scene(TomlSource& source, const std::string& key, const std::string& text) {
+  if (key == "mesh.file")
+    for (const char* of_grid : {"mesh.grid", "mesh.springs.shear", "mesh.springs.bend"})
+      source.erase(of_grid);
+  if (key == "mesh.grid" || starts_with(key, "mesh.grid."))
+    for (const char* of_file : {"mesh.file", "mesh.scale", "mesh.pin_band", "mesh.up"}) source.erase(of_file);
+  source.set(key, text);
+}
+
+Scene read_scene(const TomlSource& source, const std::string& path) {
+  return SceneReader(source, path).read();
+}
+
+InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,
+                       const std::string& expected, const std::string& nearest) {
+  const auto place = scene.lines.find(key);
+  if (place == scene.lines.end()) return input_error(scene.source, 0, key, found, expected, nearest);
+  return input_error(place->second == 0 ? "--set" : scene.source, place->second, key, found, expected,
+                     nearest);
+}
+
+} // namespace hopmesh::scene
