@@ -1,5 +1,5 @@
-// The algorithm in double precision with Eigen: the readable definition, written from docs/theory.md alone. It shares
-// no arithmetic with the firmware or the array; that they agree is evidence.
+// The algorithm in double precision with Eigen: the readable definition, written from docs/theory.md alone.
+// It shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
 #include "sim/scene/mesh.h"
@@ -12,8 +12,8 @@ namespace hopmesh::reference {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Neurons are numbered components * node + p over ALL nodes (components: 3, or 2 for x and z in planar meshes);
-/// rows, columns and entries of pinned nodes are empty and zero.
+/// Neurons are numbered components * node + p over ALL nodes (components: 3, or 2 for x and z in planar
+/// meshes); rows, columns and entries of pinned nodes are empty and zero.
 struct Network {
   Matrix W;
   Vector I;
@@ -50,7 +50,8 @@ State initial_state(const scene::Mesh& mesh);
 
 /// C of math.md 1: [3 * nodes].
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
-/// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter than 1e-9.
+/// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter
+/// than 1e-9.
 Vector expansion_point(const scene::Mesh& mesh, const State& state);
 /// E(V) of math.md 1 (paper eq. 15).
 double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
