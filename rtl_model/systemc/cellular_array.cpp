@@ -1,0 +1,41 @@
+#include "rtl_model/systemc/cellular_array.h"
+
+namespace hopmesh::systemc {
+
+namespace {
+
+std::vector<std::size_t> phase_of_neurons(const spec::Topology& t, const spec::Phases& phases) {
+  std::vector<std::size_t> phase(t.neurons());
+  for (std::size_t k = 0; k < phases.size(); ++k)
+    for (std::uint32_t neuron : phases[k]) phase[neuron] = k;
+  return phase;
+}
+
+} // namespace
+
+CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec& array,
+                             const spec::Topology& topology)
+    : sc_module(name), array_(array), topology_(topology),
+      phases_(spec::phases_of(topology_, array_.schedule)),
+      cycles_(spec::cycle_model(array_, topology_, phases_)), period_(1.0 / array.clock_mhz, sc_core::SC_US),
+      detector("detector"), sequencer("sequencer", cycles_, period_, detector) {
+  const ArrayContext context{array_, topology_, spec::accumulator_format(array_, topology_.most_taps()),
+                             sequencer, detector};
+  const auto phase = phase_of_neurons(topology_, phases_);
+  const std::size_t per_cell = topology_.neurons_per_cell;
+  for (std::size_t c = 0; c < topology_.cells(); ++c) {
+    const std::string cell = "cell_" + std::to_string(c);
+    cells_.push_back(std::make_unique<Cell>(
+        cell.c_str(), context, c,
+        std::vector<std::size_t>(phase.begin() + c * per_cell, phase.begin() + (c + 1) * per_cell)));
+  }
+  wire_links();
+}
+
+void CellularArray::wire_links() {
+  for (std::size_t c = 0; c < topology_.cells(); ++c)
+    for (std::size_t k = 0; k < topology_.degree(c); ++k)
+      cells_[c]->in[k].bind(cells_[topology_.link_to[topology_.first_link[c] + k]]->out);
+}
+
+} // namespace hopmesh::systemc

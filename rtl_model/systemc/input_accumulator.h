@@ -1,0 +1,60 @@
+// First part of a neuron: s = sum of weight * link + bias, and N = sum |weight| + |bias| (docs/datapath.md).
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+
+#include <systemc>
+#include <vector>
+
+namespace hopmesh::systemc {
+
+/// Holds a row of weights and the bias, the accumulator register and N. Works a beat (`lanes` taps) at a
+/// time, as the hardware does every cycle, or a whole row at once; both leave the same bits.
+class InputAccumulator : public sc_core::sc_module {
+ public:
+  /// `accumulator`: the register's format. A row of `taps` inputs reads `per_source` wires of each source.
+  InputAccumulator(sc_core::sc_module_name name, const spec::ArraySpec& array,
+                   const spec::NumberFormat& accumulator, std::size_t per_source, std::size_t taps);
+
+  /// Wires of the next source, in the order of taps.
+  void connect(const std::int32_t* source) { sources_.push_back(source); }
+
+  std::size_t taps() const { return weights_.size(); }
+  std::size_t beats() const { return (taps() + lanes_ - 1) / lanes_; }
+
+  void begin_sum();             ///< s <- bias
+  void sum_beat(std::size_t k); ///< adds the k-th group of lanes
+  void sum_row();               ///< begin_sum and every beat
+  void begin_norm();            ///< N <- |bias|
+  void norm_beat(std::size_t k);
+  void norm_row();
+
+  std::int64_t sum_raw() const { return sum_; }
+  std::int64_t norm_raw() const { return norm_; }
+
+  std::int32_t weight(std::size_t tap) const { return weights_[tap]; }
+  std::int32_t bias() const { return bias_; }
+  void set_weight(std::size_t tap, std::int32_t raw) { weights_[tap] = raw; }
+  void set_bias(std::int32_t raw) { bias_ = raw; }
+
+  void trace(sc_core::sc_trace_file* file) const;
+
+ private:
+  std::int64_t dot(std::size_t first, std::size_t last) const;
+  std::int64_t dot_row() const;
+  void add(std::int64_t products);
+
+  const std::size_t lanes_;
+  const spec::NumberFormat format_;
+  const bool exact_;
+  const int product_up_, sum_up_; ///< places that bring products and s to their common last place
+  const int bias_places_;         ///< places by which the bias is finer than s (below zero: coarser)
+  const int weight_norm_up_, bias_norm_up_; ///< the same for N
+  const std::size_t per_source_;
+  std::vector<std::int32_t> weights_;
+  std::vector<const std::int32_t*> sources_;
+  std::int32_t bias_ = 0;
+  std::int64_t sum_ = 0, norm_ = 0;
+};
+
+} // namespace hopmesh::systemc

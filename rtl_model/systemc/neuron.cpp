@@ -1,0 +1,76 @@
+#include "rtl_model/systemc/neuron.h"
+
+namespace hopmesh::systemc {
+
+Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::size_t phase, std::size_t taps,
+               LinkRegister& link, std::size_t p)
+    : sc_module(name),
+      accumulator("accumulator", context.array, context.accumulator, context.topology.neurons_per_cell, taps),
+      output("output", context.array, context.accumulator), sequencer_(context.sequencer),
+      detector_(context.detector), link_(link), p_(p),
+      segment_(Sequencer::first_phase + static_cast<int>(phase)),
+      phase_cycles_(context.sequencer.phase_cycles(phase)),
+      normalise_cycles_(spec::normalise_cycles(context.array)) {
+  SC_METHOD(on_prepare_done);
+  sensitive << sequencer_.prepare_done();
+  dont_initialize();
+  SC_METHOD(on_phase_done);
+  sensitive << sequencer_.phase_done(phase);
+  dont_initialize();
+  SC_METHOD(on_clock);
+  sensitive << sequencer_.clock().posedge_event();
+  dont_initialize();
+}
+
+void Neuron::load(std::int32_t raw) {
+  output.load(raw);
+  link_.load(p_, output.link_raw());
+}
+
+void Neuron::on_prepare_done() {
+  accumulator.norm_row();
+  output.set_norm(accumulator.norm_raw());
+}
+
+// Woken once, in the phase's last cycle: the whole row, then the output stage.
+void Neuron::on_phase_done() {
+  accumulator.sum_row();
+  output.normalise(accumulator.sum_raw());
+  output.bias_by_r();
+  publish();
+}
+
+void Neuron::publish() {
+  detector_.report(output.publish());
+  link_.write(p_, output.link_raw());
+}
+
+// Woken at every edge: mostly to find that another colour's phase is on.
+void Neuron::on_clock() {
+  const int segment = sequencer_.segment();
+  if (segment == segment_) return phase_beat(sequencer_.beat());
+  if (segment == Sequencer::prepare) prepare_beat(sequencer_.beat());
+}
+
+void Neuron::prepare_beat(std::uint64_t beat) {
+  if (beat == 0) accumulator.begin_norm();
+  if (beat < accumulator.beats()) accumulator.norm_beat(beat);
+  if (beat + 1 == sequencer_.prepare_cycles()) output.set_norm(accumulator.norm_raw());
+}
+
+// Accumulate, normalise, R u, publish; a row shorter than the phase's longest waits before it publishes.
+void Neuron::phase_beat(std::uint64_t beat) {
+  const std::uint64_t beats = accumulator.beats();
+  if (beat == 0) accumulator.begin_sum();
+  if (beat < beats) accumulator.sum_beat(beat);
+  if (beat + 1 == beats + normalise_cycles_) output.normalise(accumulator.sum_raw());
+  if (beat == beats + normalise_cycles_) output.bias_by_r();
+  if (beat + 1 == phase_cycles_) publish();
+}
+
+void Neuron::trace(sc_core::sc_trace_file* file) const {
+  accumulator.trace(file);
+  output.trace(file);
+}
+
+} // namespace hopmesh::systemc

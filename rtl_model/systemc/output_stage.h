@@ -1,0 +1,44 @@
+// Second part of a neuron: u = s / N, R = 1 - V or 1 + V, V <- V + R u (docs/datapath.md).
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/systemc/rounding.h"
+
+#include <systemc>
+
+namespace hopmesh::systemc {
+
+/// Holds V, and the registers u and delta on the way to it. Knows nothing of neighbours.
+class OutputStage : public sc_core::sc_module {
+ public:
+  OutputStage(sc_core::sc_module_name name, const spec::ArraySpec& array,
+              const spec::NumberFormat& accumulator);
+
+  void
+  set_norm(std::int64_t norm_raw); ///< once a run; for `reciprocal` this is where the reciprocal is divided
+  void normalise(std::int64_t sum_raw); ///< u <- limited Q[s / N]
+  void bias_by_r();                     ///< delta <- Q[R u]: the R bias pulls V to the bound that u points to
+  std::int64_t publish();               ///< V <- V + delta; returns |delta|
+
+  std::int64_t state_raw() const { return state_; }
+  std::int64_t drive_raw() const { return drive_; }
+  std::int32_t link_raw() const; ///< Q[V -> link]
+  /// A value from the host: cut to the format's width, then held within [-1, 1].
+  void load(std::int32_t raw);
+
+  void trace(sc_core::sc_trace_file* file) const;
+
+ private:
+  Wide exact_ratio(std::int64_t sum_raw) const;
+
+  const spec::Normaliser normaliser_;
+  const spec::NumberFormat drive_format_, state_format_, link_format_;
+  const int reciprocal_bits_;
+  const int ratio_up_;      ///< s * 2^ratio_up_ / N counts in the drive's last place
+  const int scaled_places_; ///< places by which s is finer than u (prescaled rows)
+  const bool narrow_;       ///< s * 2^ratio_up_ fits 63 bits: a 64-bit division will do
+  std::int64_t norm_ = 0, reciprocal_ = 0, drive_ = 0, delta_ = 0, state_ = 0;
+  int reciprocal_places_ = 0;
+};
+
+} // namespace hopmesh::systemc

@@ -1,0 +1,132 @@
+#include "rtl_model/systemc/sequencer.h"
+
+namespace hopmesh::systemc {
+
+using sc_core::sc_time;
+
+Sequencer::Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_time period,
+                     ConvergenceDetector& detector)
+    : sc_module(name), cycles_(cycles), period_(period), detector_(detector),
+      phase_done_(cycles.phase.size()), clock_("clock", false), segment_("segment", idle), beat_("beat", 0) {
+  SC_METHOD(on_segment_end);
+  sensitive << segment_end_;
+  dont_initialize();
+  SC_METHOD(on_clock);
+  sensitive << clock_.posedge_event();
+  dont_initialize();
+  SC_METHOD(toggle_clock);
+  sensitive << clock_edge_;
+  dont_initialize();
+}
+
+void Sequencer::begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_time delay) {
+  threshold_ = threshold;
+  max_sweeps_ = std::max<std::uint64_t>(max_sweeps, 1);
+  busy_ = true;
+  converged_ = false;
+  sweeps_ = run_cycles_ = 0;
+  at_ = idle;
+  const sc_time asked = sc_core::sc_time_stamp() + delay;
+  const sc_time late = asked % period_;
+  segment_end_.notify(late == sc_core::SC_ZERO_TIME ? delay : delay + period_ - late);
+}
+
+std::uint64_t Sequencer::length_of(int segment) const {
+  switch (segment) {
+  case idle:
+    return 0;
+  case prepare:
+    return cycles_.prepare;
+  case start:
+  case check:
+    return 1;
+  default:
+    return cycles_.phase[segment - first_phase];
+  }
+}
+
+int Sequencer::next_segment() const {
+  const int phases_end = first_phase + static_cast<int>(cycles_.phase.size());
+  if (at_ == idle) return start;
+  if (at_ == start && cycles_.prepare > 0) return prepare;
+  if (at_ == start || at_ == prepare) return first_phase;
+  if (at_ == check) return converged_ || sweeps_ == max_sweeps_ ? idle : first_phase;
+  return at_ + 1 < phases_end ? at_ + 1 : check;
+}
+
+bool Sequencer::walks(std::uint64_t cycles) const {
+  return total_cycles_ < walked_.last && total_cycles_ + cycles > walked_.first;
+}
+
+// What a segment leaves behind in its last cycle.
+void Sequencer::leave_segment() {
+  total_cycles_ += length_of(at_);
+  run_cycles_ += length_of(at_);
+  if (at_ != check) return;
+  sweeps_ += 1;
+  converged_ = static_cast<std::uint64_t>(detector_.largest_change()) <= threshold_;
+}
+
+void Sequencer::enter(int segment) {
+  at_ = segment;
+  if (at_ == idle) return finish();
+  if (at_ == first_phase) detector_.begin_sweep();
+  const std::uint64_t length = length_of(at_);
+  const bool was_clocked = clocked_;
+  clocked_ = walks(length);
+  segment_ = clocked_ ? at_ : static_cast<int>(idle);
+  beat_ = 0;
+  beats_left_ = length;
+  if (clocked_) {
+    if (!was_clocked) clock_edge_.notify(period_);
+    return;
+  }
+  const sc_time end = period_ * static_cast<double>(length);
+  if (at_ == prepare) prepare_done_.notify(end);
+  if (at_ >= first_phase) phase_done_[at_ - first_phase].notify(end);
+  segment_end_.notify(end);
+}
+
+void Sequencer::on_segment_end() {
+  leave_segment();
+  enter(next_segment());
+}
+
+// An edge ends a cycle: neurons do the work of the beat shown so far, the next beat shows from now on.
+void Sequencer::on_clock() {
+  if (!clocked_) return;
+  beats_left_ -= 1;
+  if (beats_left_ > 0)
+    beat_ = beat_.read() + 1;
+  else
+    on_segment_end();
+}
+
+// Rising at the end of every cycle, falling half-way; rests low when nobody walks clock by clock.
+void Sequencer::toggle_clock() {
+  if (clock_.read()) {
+    clock_ = false;
+    if (clocked_) clock_edge_.notify(period_ / 2);
+  } else {
+    clock_ = true;
+    clock_edge_.notify(period_ / 2);
+  }
+}
+
+void Sequencer::finish() {
+  busy_ = clocked_ = false;
+  segment_ = idle;
+  beat_ = 0;
+  run_done_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void Sequencer::trace(sc_core::sc_trace_file* file) const {
+  const std::string prefix = std::string(name()) + ".";
+  sc_core::sc_trace(file, clock_, prefix + "clock");
+  sc_core::sc_trace(file, segment_, prefix + "segment");
+  sc_core::sc_trace(file, beat_, prefix + "beat");
+  sc_core::sc_trace(file, busy_, prefix + "busy");
+  sc_core::sc_trace(file, sweeps_, prefix + "sweeps");
+}
+
+} // namespace hopmesh::systemc

@@ -1,0 +1,84 @@
+// Walks a run through its segments: take START, prepare, phase after phase, convergence check, sweep after
+// sweep, DONE.
+#pragma once
+
+#include "rtl_model/spec/schedule.h"
+#include "rtl_model/systemc/convergence_detector.h"
+
+#include <systemc>
+
+namespace hopmesh::systemc {
+
+/// How neuron processes wake: at the end of their phase, accounting for its cycles; or at every clock, as in
+/// waves. Both give the same bits at the same times.
+enum class Waking { by_phase, by_clock };
+
+/// Cycles of all runs so far, counted on: [first, last) is walked clock by clock.
+struct CycleWindow {
+  std::uint64_t first = 0, last = 0;
+};
+
+/// Owns time. By phase, it notifies `prepare_done()` and `phase_done(k)` in the last cycle of that segment
+/// and sleeps in between. By clock, it runs `clock()` and shows `segment()` and `beat()` of the current
+/// cycle, one cycle an edge.
+class Sequencer : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Sequencer);
+  Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_core::sc_time period,
+            ConvergenceDetector& detector);
+
+  /// Segments are numbered: idle, start, prepare, check, and first_phase + k for phase k.
+  enum Segment : int { idle, start, prepare, check, first_phase };
+
+  const sc_core::sc_event& prepare_done() const { return prepare_done_; }
+  const sc_core::sc_event& phase_done(std::size_t k) const { return phase_done_[k]; }
+  const sc_core::sc_event& run_done() const { return run_done_; }
+  const sc_core::sc_signal<bool>& clock() const { return clock_; }
+  std::uint64_t phase_cycles(std::size_t k) const { return cycles_.phase[k]; }
+  std::uint64_t prepare_cycles() const { return cycles_.prepare; }
+  int segment() const { return segment_.read(); }
+  std::uint64_t beat() const { return beat_.read(); }
+
+  /// Begins a run on the first clock edge not before now + delay. Only when idle.
+  void begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_core::sc_time delay);
+  bool busy() const { return busy_; }
+
+  /// Which cycles to walk clock by clock; takes effect at the next segment.
+  void walk(CycleWindow window) { walked_ = window; }
+
+  std::uint64_t sweeps() const { return sweeps_; }
+  bool converged() const { return converged_; }
+  std::uint64_t run_cycles() const { return run_cycles_; } ///< of the last run
+  std::uint64_t total_cycles() const {
+    return total_cycles_;
+  } ///< of all runs, up to the current segment's start
+
+  void trace(sc_core::sc_trace_file* file) const;
+
+ private:
+  void on_segment_end();
+  void on_clock();
+  void toggle_clock();
+  void enter(int segment);
+  void leave_segment();
+  void finish();
+  int next_segment() const;
+  std::uint64_t length_of(int segment) const;
+  bool walks(std::uint64_t cycles) const;
+
+  const spec::CycleModel cycles_;
+  const sc_core::sc_time period_;
+  ConvergenceDetector& detector_;
+  std::vector<sc_core::sc_event> phase_done_;
+  sc_core::sc_event prepare_done_, run_done_, segment_end_, clock_edge_;
+  sc_core::sc_signal<bool> clock_;
+  sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> segment_; // by one process or the other, never both
+  sc_core::sc_signal<std::uint64_t, sc_core::SC_MANY_WRITERS> beat_;
+  CycleWindow walked_;
+  int at_ = idle; ///< the segment that runs now; segment_ shows it while clocks run
+  std::uint64_t beats_left_ = 0;
+  bool busy_ = false, converged_ = false, clocked_ = false;
+  std::uint64_t threshold_ = 0, max_sweeps_ = 1, sweeps_ = 0, run_cycles_ = 0, total_cycles_ = 0;
+};
+
+} // namespace hopmesh::systemc
