@@ -1,0 +1,154 @@
+// Which arrays are refused, and with which sentence.
+#include "rtl_model/spec/array_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace hopmesh::spec {
+namespace {
+
+using Change = std::function<void(ArraySpec&)>;
+
+/// The fault that a change of the `descent` array makes, as "key: found: expected"; empty if none.
+std::string fault_of(const Change& change, std::size_t taps = 27) {
+  ArraySpec array = descent_array();
+  change(array);
+  const auto fault = validate(array, taps);
+  return fault ? fault->key + ": " + fault->found + ": " + fault->expected : "";
+}
+
+NumberFormat format(int width, int integer_bits) {
+  return {width, integer_bits, Rounding::rnd, Overflow::sat};
+}
+
+TEST(ArrayRules, PresetsAreValidForTheLongestRowsOfAnySensibleMesh) {
+  for (const ArraySpec& array : presets())
+    for (std::size_t taps : {2, 3, 27, 39, 300}) {
+      const auto fault = validate(array, taps);
+      EXPECT_FALSE(fault) << array.name << ", " << taps << " taps: " << fault->key << " " << fault->expected;
+    }
+}
+
+TEST(ArrayRules, PresetsAreFoundByTheirOwnNames) {
+  for (const ArraySpec& array : presets()) {
+    const auto found = preset(array.name);
+    ASSERT_TRUE(found) << array.name;
+    EXPECT_EQ(found->name, array.name);
+  }
+  EXPECT_FALSE(preset("no such array"));
+  EXPECT_TRUE(preset(default_array().name));
+}
+
+TEST(ArrayRules, DescentMeetsTheConditionsOfItsProof) {
+  const ArraySpec a = descent_array();
+  EXPECT_TRUE(a.exact_accumulator);
+  EXPECT_EQ(a.formats.link, a.formats.state);
+  EXPECT_EQ(a.formats.drive.rounding, Rounding::trn_zero);
+  EXPECT_EQ(a.formats.state.rounding, Rounding::trn_zero);
+  EXPECT_NE(a.normaliser, Normaliser::prescaled);
+  EXPECT_NE(a.schedule, Schedule::synchronous);
+}
+
+TEST(ArrayRules, WidthsAreFourToThirtyTwo) {
+  const char* sentence = "4 to 32 bits";
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.weight = format(3, 1); }),
+            std::string("formats.weight: fixed<3,1,SC_RND,SC_SAT>: ") + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.bias = format(33, 1); }),
+            std::string("formats.bias: fixed<33,1,SC_RND,SC_SAT>: ") + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.drive = format(33, 2); }),
+            std::string("formats.drive: fixed<33,2,SC_RND,SC_SAT>: ") + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.state = format(0, 2); }),
+            std::string("formats.state: fixed<0,2,SC_RND,SC_SAT>: ") + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.link = format(3, 2); }),
+            std::string("formats.link: fixed<3,2,SC_RND,SC_SAT>: ") + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.weight = format(4, 1); }), "");
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.weight = format(32, 1); }), "");
+}
+
+TEST(ArrayRules, PlusOneNeedsTwoIntegerBitsWhereVLives) {
+  const std::string sentence = "from 2 integer bits to one less than the width (+1 needs two)";
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.drive = format(16, 1); }),
+            "formats.drive: fixed<16,1,SC_RND,SC_SAT>: " + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.state = format(16, 1); }),
+            "formats.state: fixed<16,1,SC_RND,SC_SAT>: " + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.link = format(16, 16); }),
+            "formats.link: fixed<16,16,SC_RND,SC_SAT>: " + sentence);
+}
+
+TEST(ArrayRules, WeightsNeedASignBitAndAFraction) {
+  const std::string sentence = "from 1 integer bits to one less than the width";
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.weight = format(16, 0); }),
+            "formats.weight: fixed<16,0,SC_RND,SC_SAT>: " + sentence);
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.bias = format(16, 16); }),
+            "formats.bias: fixed<16,16,SC_RND,SC_SAT>: " + sentence);
+}
+
+TEST(ArrayRules, LinksAreNoFinerThanTheState) {
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.formats.link = format(17, 2); }),
+            "formats.link: fixed<17,2,SC_RND,SC_SAT>: at most the state's 14 fraction bits");
+}
+
+TEST(ArrayRules, ExactSumsFitSixtyTwoBits) {
+  // weight fixed<32,1> times link fixed<32,2>: 31 + 30 fraction bits; 2 integer bits and 5 of growth for 27
+  // taps.
+  EXPECT_EQ(fault_of([](ArraySpec& a) {
+              a.formats.weight = format(32, 1);
+              a.formats.state = a.formats.link = format(32, 2);
+            }),
+            "formats.weight: fixed<32,1,SC_RND,SC_SAT>: formats whose exact sum fits 62 bits (this one needs "
+            "75 for rows "
+            "of 27 inputs)"); // the bias fixed<24,9> has more integer bits: 61 + 9 + 5
+}
+
+TEST(ArrayRules, OwnAccumulatorsLieBetweenFourAndSixtyTwoBits) {
+  const auto own = [](const NumberFormat& f) {
+    return fault_of([&](ArraySpec& a) {
+      a.exact_accumulator = false;
+      a.formats.accumulator = f;
+    });
+  };
+  const std::string width = ": 4 to 62 bits, at least 1 of them before the point";
+  EXPECT_EQ(own(format(63, 40)), "formats.accumulator: fixed<63,40,SC_RND,SC_SAT>" + width);
+  EXPECT_EQ(own(format(3, 2)), "formats.accumulator: fixed<3,2,SC_RND,SC_SAT>" + width);
+  EXPECT_EQ(own(format(20, 0)), "formats.accumulator: fixed<20,0,SC_RND,SC_SAT>" + width);
+  EXPECT_EQ(own(format(20, 21)), "formats.accumulator: fixed<20,21,SC_RND,SC_SAT>" + width);
+  EXPECT_EQ(own(format(20, 20)), "");
+  // A product has 15 + 14 fraction bits.
+  EXPECT_EQ(own(format(31, 2)), "");
+  EXPECT_EQ(own(format(32, 2)),
+            "formats.accumulator: fixed<32,2,SC_RND,SC_SAT>: at most the 29 fraction bits of a product");
+}
+
+TEST(ArrayRules, ScalarsHaveBounds) {
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.lanes = 0; }), "array.lanes: 0: 1 to 64");
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.lanes = 65; }), "array.lanes: 65: 1 to 64");
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.reciprocal_bits = 3; }), "array.reciprocal_bits: 3: 4 to 32");
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.reciprocal_bits = 33; }), "array.reciprocal_bits: 33: 4 to 32");
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.bus_bits = 48; }), "array.bus_bits: 48: 32, 64 or 128");
+  for (double mhz : {0.0, -1.0, 10001.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_NE(fault_of([&](ArraySpec& a) { a.clock_mhz = mhz; }).find("above 0, at most 10000"),
+              std::string::npos)
+        << mhz;
+  EXPECT_EQ(fault_of([](ArraySpec& a) { a.clock_mhz = 10000; }), "");
+}
+
+TEST(ArrayRules, ExactAccumulatorByHand) {
+  // weight fixed<16,1> (F 15), link fixed<16,2> (F 14), bias fixed<24,9> (F 15); 27 taps and a bias:
+  // growth 5.
+  const NumberFormat exact = exact_accumulator_format(descent_array().formats, 27);
+  EXPECT_EQ(exact.fraction_bits(), 29);
+  EXPECT_EQ(exact.integer_bits, 9 + 5);
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 3).integer_bits, 9 + 2);
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 31).integer_bits, 9 + 5);
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 32).integer_bits, 9 + 6);
+  Formats fine_bias = descent_array().formats;
+  fine_bias.bias = format(32, 1);
+  fine_bias.link = fine_bias.state = format(8, 2);
+  EXPECT_EQ(exact_accumulator_format(fine_bias, 3).fraction_bits(), 31); // finer than the product's 15 + 6
+}
+
+} // namespace
+} // namespace hopmesh::spec
