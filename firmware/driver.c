@@ -65,8 +65,8 @@ static int64_t bring_into_range(int64_t code, const hm_format* f) {
   return (int64_t)(kept ^ sign) - (int64_t)sign;
 }
 
-int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
-  double x = value * power_of_two(shift + fraction_bits(format));
+/* Code of a value already counted in the format's last places. */
+static int32_t code_of(double x, const hm_format* format, int* clipped) {
   const double far = 4611686018427387904.0; /* 2^62: beyond it every format is long full */
   if (magnitude(x) > far) x = x < 0 ? -far : far;
   int64_t below = (int64_t)x;
@@ -75,6 +75,10 @@ int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipp
   const int64_t kept = bring_into_range(code, format);
   if (kept != code) *clipped = 1;
   return (int32_t)kept;
+}
+
+int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
+  return code_of(value * power_of_two(shift + fraction_bits(format)), format, clipped);
 }
 
 /* The largest power of two by which a value of this size can be multiplied and still fit. */
@@ -157,7 +161,13 @@ int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_
 typedef struct stream {
   hm_driver* driver;
   uint32_t address, waiting;
+  const hm_format* format;
+  double scale; /* values times this count in the format's last places */
 } stream;
+
+static stream open_stream(hm_driver* d, uint32_t address, const hm_format* format, int shift) {
+  return (stream){d, address, 0, format, power_of_two(shift + fraction_bits(format))};
+}
 
 static int flush(stream* s) {
   const hm_bus* bus = s->driver->bus;
@@ -168,9 +178,9 @@ static int flush(stream* s) {
   return HM_OK;
 }
 
-static int put(stream* s, double value, int shift, const hm_format* format) {
+static int put(stream* s, double value) {
   int clipped = 0;
-  s->driver->buffer[s->waiting++] = (uint32_t)hm_quantise(value, shift, format, &clipped);
+  s->driver->buffer[s->waiting++] = (uint32_t)code_of(value * s->scale, s->format, &clipped);
   s->driver->clipped += (uint32_t)clipped;
   return s->waiting == s->driver->buffer_words ? flush(s) : HM_OK;
 }
@@ -208,32 +218,30 @@ static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t 
 }
 
 static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  stream weights = {d, HM_WINDOW_WEIGHT, 0};
+  stream weights = open_stream(d, HM_WINDOW_WEIGHT, &d->weight, shift);
   for (uint32_t c = 0; c < mesh->cells; ++c)
     for (uint32_t p = 0; p < mesh->components; ++p) {
       const double* row = network->weight + hm_row_offset(mesh, c, p);
       const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
-      for (uint32_t k = 0; k < hm_row_length(mesh, c); ++k)
-        TRY(put(&weights, row[k] / norm, shift, &d->weight));
+      for (uint32_t k = 0; k < hm_row_length(mesh, c); ++k) TRY(put(&weights, row[k] / norm));
     }
   return flush(&weights);
 }
 
 static int load_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  stream biases = {d, HM_WINDOW_BIAS, 0};
+  stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, shift);
   for (uint32_t c = 0; c < mesh->cells; ++c)
     for (uint32_t p = 0; p < mesh->components; ++p) {
       const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
-      TRY(put(&biases, network->bias[c * mesh->components + p] / norm, shift, &d->bias));
+      TRY(put(&biases, network->bias[c * mesh->components + p] / norm));
     }
   return flush(&biases);
 }
 
 static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
   const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
-  stream outputs = {d, HM_WINDOW_OUTPUT, 0};
-  for (uint32_t k = 0; k < mesh->cells * mesh->components; ++k)
-    TRY(put(&outputs, network->output[k], 0, &d->state));
+  stream outputs = open_stream(d, HM_WINDOW_OUTPUT, &d->state, 0);
+  for (uint32_t k = 0; k < mesh->cells * mesh->components; ++k) TRY(put(&outputs, network->output[k]));
   d->clipped = clipped;
   return flush(&outputs);
 }

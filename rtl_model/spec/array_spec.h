@@ -39,7 +39,7 @@ struct Formats {
 struct ArraySpec {
   std::string name = "custom";
   Schedule schedule = Schedule::coloured;
-  int lanes = 3; ///< multipliers per neuron: taps taken per cycle
+  int lanes = 1; ///< multipliers per neuron: taps taken per cycle
   Normaliser normaliser = Normaliser::divider;
   int reciprocal_bits = 18; ///< width of the reciprocal's mantissa (unsigned, truncated)
   bool exact_accumulator = true;
