@@ -1,0 +1,118 @@
+// The SystemC array against the slow one: 10,000 random networks on as many random arrays, raw code by raw
+// code, with sweeps, the convergence bit, the largest change and the cycles. Twenty batches of 500 devices,
+// one elaboration each.
+#include "rtl_model/spec/array_rules.h"
+#include "tests/support/dut.h"
+#include "tests/support/random_network.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace hopmesh::tests {
+namespace {
+
+constexpr int batches = 20, batch_size = 500;
+
+/// A device beside the job it is to do and what the slow array makes of it.
+struct Bench {
+  Bench(std::uint64_t seed_of_job, const ArrayJob& a_job)
+      : seed(seed_of_job), job(a_job), expected(run_slow_array(job, Keep::every_sweep)),
+        dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
+
+  void load() {
+    ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
+    ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
+    ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
+  }
+
+  void expect_run() {
+    EXPECT_EQ(dut.read(HM_WINDOW_OUTPUT, job.topology.neurons()), expected.output());
+    EXPECT_EQ(dut.read(HM_REG_SWEEPS), expected.sweeps);
+    EXPECT_EQ(dut.read(HM_REG_STATUS),
+              static_cast<std::uint32_t>(HM_STATUS_DONE | (expected.converged ? HM_STATUS_CONVERGED : 0)));
+    EXPECT_EQ(dut.read(HM_REG_LARGEST_CHANGE), expected.largest_change);
+    const std::uint64_t high = dut.read(HM_REG_CYCLES_HI);
+    EXPECT_EQ(high << 32 | dut.read(HM_REG_CYCLES_LO), expected.cycles);
+  }
+
+  std::string text() const { return "seed " + std::to_string(seed) + ": " + describe(job); }
+
+  const std::uint64_t seed;
+  const ArrayJob job;
+  const ArrayResult expected;
+  Dut dut;
+};
+
+using Benches = std::vector<std::unique_ptr<Bench>>;
+
+Benches make_benches(int batch) {
+  Benches benches;
+  for (int k = 0; k < batch_size; ++k) {
+    const std::uint64_t seed = 1 + static_cast<std::uint64_t>(batch) * batch_size + k;
+    benches.push_back(std::make_unique<Bench>(seed, random_job(seed)));
+  }
+  return benches;
+}
+
+/// All devices at once, in one simulated time.
+void run_all(const Benches& benches, systemc::Waking waking) {
+  for (const auto& bench : benches) {
+    SCOPED_TRACE(bench->text());
+    bench->load();
+    bench->dut.device.wake(waking);
+    bench->dut.start(bench->job.threshold, bench->job.max_sweeps);
+  }
+  for (const auto& bench : benches) bench->dut.run_until_done();
+  for (const auto& bench : benches) {
+    SCOPED_TRACE(bench->text());
+    bench->expect_run();
+  }
+}
+
+class CosimNetworks : public testing::TestWithParam<int> {};
+
+TEST_P(CosimNetworks, WokenByPhase) {
+  run_all(make_benches(GetParam()), systemc::Waking::by_phase);
+}
+
+TEST_P(CosimNetworks, WokenByClock) {
+  run_all(make_benches(GetParam()), systemc::Waking::by_clock);
+}
+
+TEST_P(CosimNetworks, AfterEverySweep) {
+  const Benches benches = make_benches(GetParam());
+  for (const auto& bench : benches) {
+    SCOPED_TRACE(bench->text());
+    bench->load();
+    for (std::size_t sweep = 0; sweep < bench->expected.history.size(); ++sweep) {
+      bench->dut.start(0, 1);
+      bench->dut.run_until_done();
+      ASSERT_EQ(bench->dut.read(HM_WINDOW_OUTPUT, bench->job.topology.neurons()),
+                bench->expected.history[sweep])
+          << "sweep " << sweep + 1;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Batch, CosimNetworks, testing::Range(0, batches));
+
+/// Named arrays on the mesh of a small flag, long enough to converge.
+TEST(CosimPresets, EveryPresetOnASmallFlag) {
+  Benches benches;
+  std::uint64_t seed = 5000;
+  for (spec::ArraySpec array : spec::presets())
+    for (spec::Schedule schedule :
+         {spec::Schedule::coloured, spec::Schedule::sequential, spec::Schedule::synchronous}) {
+      array.schedule = schedule;
+      Dice dice(++seed);
+      ArrayJob job = random_codes(dice, array, grid_topology(5, 4, true));
+      job.threshold = 1;
+      job.max_sweeps = 40;
+      benches.push_back(std::make_unique<Bench>(seed, job));
+    }
+  run_all(benches, systemc::Waking::by_phase);
+}
+
+} // namespace
+} // namespace hopmesh::tests
