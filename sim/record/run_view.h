@@ -1,4 +1,5 @@
-// What the pictures of a run need: filled by the study, drawn by glTF and report. Plain data, no model behind it.
+// What the pictures of a run need: filled by the study, drawn by glTF and report. Plain data, no model behind
+// it.
 #pragma once
 
 #include <array>
@@ -40,15 +41,16 @@ struct RunView {
   std::vector<bool> pinned;
   std::vector<std::array<ViewCorner, 3>> triangles;
   std::vector<ViewSpring> springs;
-  bool crest = true;    ///< draw our crest on the surface
-  std::string up = "z"; ///< axis that points up: x, y or z
+  bool crest = true;                      ///< draw our crest on the surface
+  std::string up = "z";                   ///< axis that points up: x, y or z
   std::vector<std::vector<float>> frames; ///< positions [nodes * 3] of the frames shown
   std::vector<double> frame_times;        ///< s
   std::vector<double> frame_steps;
   std::vector<double> step_times; ///< s, abscissa of the series
   std::vector<Series> series;     ///< sweeps, cycles, energy, kinetic, max_strain, error_v, ...
-  std::vector<std::pair<std::string, std::vector<Figure>>> tables; ///< e.g. {"The array", {...}}, {"Speed", {...}}
-  std::string manifest;           ///< manifest.json as text
+  std::vector<std::pair<std::string, std::vector<Figure>>>
+      tables;           ///< e.g. {"The array", {...}}, {"Speed", {...}}
+  std::string manifest; ///< manifest.json as text
 };
 
 } // namespace hopmesh::record

@@ -1,0 +1,25 @@
+// The flag's own picture: a golden shield with a mesh of hops on deep blue cloth, drawn from formulas.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hopmesh::record {
+
+/// RGBA, eight bits each, from the top left.
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// The same bytes at every call. The picture is square: it is stretched over flags of other shapes.
+Picture draw_crest(std::uint32_t size = 512);
+
+/// The bytes of a PNG file.
+std::string encode_png(const Picture& picture);
+
+/// The crest as PNG, ready to embed.
+std::string crest_png(std::uint32_t size = 512);
+
+} // namespace hopmesh::record

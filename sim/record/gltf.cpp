@@ -1,0 +1,300 @@
+// The first frame is the mesh itself; each further frame is a morph target (the differences from the first),
+// and the animation moves the weight from one target to the next.
+#include "sim/record/gltf.h"
+
+#include "sim/record/crest.h"
+#include "sim/record/output_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <tiny_gltf.h>
+#include <tuple>
+
+namespace hopmesh::record {
+namespace {
+
+using Floats = std::vector<float>;
+
+/// glTF is y-up: a quarter turn brings the scene's own up there and keeps left and right.
+std::array<float, 3> turned(const std::string& up, float x, float y, float z) {
+  if (up == "x") return {-y, x, z};
+  if (up == "z") return {x, z, -y};
+  return {x, y, z};
+}
+
+/// A place where texture coordinates jump is two vertices of one node.
+struct Surface {
+  std::vector<std::uint32_t> node; ///< of each vertex
+  Floats uv;
+  std::vector<std::uint32_t> indices; ///< triangles, or pairs when there are none
+  bool triangles = true;
+};
+
+Surface lines_of(const RunView& view) {
+  Surface surface;
+  surface.triangles = false;
+  for (std::size_t n = 0; n < view.nodes; ++n) surface.node.push_back(static_cast<std::uint32_t>(n));
+  for (const auto& spring : view.springs)
+    surface.indices.insert(surface.indices.end(), {spring.node[0], spring.node[1]});
+  return surface;
+}
+
+Surface surface_of(const RunView& view) {
+  if (view.triangles.empty()) return lines_of(view);
+  Surface surface;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
+  for (const auto& triangle : view.triangles)
+    for (const ViewCorner& c : triangle) {
+      const auto next = static_cast<std::uint32_t>(surface.node.size());
+      const auto [at, is_new] = known.try_emplace({c.node, c.u, c.v}, next);
+      if (is_new) {
+        surface.node.push_back(c.node);
+        surface.uv.insert(surface.uv.end(), {c.u, c.v});
+      }
+      surface.indices.push_back(at->second);
+    }
+  return surface;
+}
+
+Floats positions_of(const RunView& view, const Surface& surface, std::size_t frame) {
+  Floats out;
+  out.reserve(surface.node.size() * 3);
+  for (const auto node : surface.node) {
+    const float* p = view.frames[frame].data() + std::size_t{node} * 3;
+    for (const float coordinate : turned(view.up, p[0], p[1], p[2])) out.push_back(coordinate);
+  }
+  return out;
+}
+
+/// Smooth normals: the triangles' cross products summed per node, so that seams in the texture stay unseen.
+Floats normals_of(const Surface& surface, const Floats& positions, std::size_t nodes) {
+  std::vector<std::array<double, 3>> sums(nodes, {0, 0, 0});
+  for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
+    const float* a = &positions[std::size_t{surface.indices[i]} * 3];
+    const float* b = &positions[std::size_t{surface.indices[i + 1]} * 3];
+    const float* c = &positions[std::size_t{surface.indices[i + 2]} * 3];
+    const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]};
+    const double v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      auto& sum = sums[surface.node[surface.indices[i + corner]]];
+      for (int k = 0; k < 3; ++k)
+        sum[static_cast<std::size_t>(k)] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+  }
+  Floats out;
+  out.reserve(surface.node.size() * 3);
+  for (const auto node : surface.node) {
+    const auto& n = sums[node];
+    const double size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const bool flat = size > 0 && std::isfinite(size);
+    for (std::size_t k = 0; k < 3; ++k)
+      out.push_back(flat ? static_cast<float>(n[k] / size) : k == 1 ? 1.0f : 0.0f);
+  }
+  return out;
+}
+
+Floats minus(Floats a, const Floats& b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::minus<>());
+  return a;
+}
+
+/// Lays values into the one buffer, each run in a view of its own on a four-byte boundary.
+class Packer {
+ public:
+  explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
+
+  int view(const void* data, std::size_t bytes, int target) {
+    auto& store = model_.buffers[0].data;
+    store.resize((store.size() + 3) / 4 * 4);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = store.size();
+    view.byteLength = bytes;
+    view.target = target;
+    store.resize(store.size() + bytes);
+    if (bytes > 0) std::memcpy(store.data() + view.byteOffset, data, bytes);
+    model_.bufferViews.push_back(view);
+    return static_cast<int>(model_.bufferViews.size()) - 1;
+  }
+
+  /// `width` floats an element (1: scalar, 2 and 3: vectors); with_bounds where the standard asks for min and
+  /// max.
+  int floats(const Floats& values, std::size_t width, int target, bool with_bounds) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = view(values.data(), values.size() * sizeof(float), target);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = width == 1 ? TINYGLTF_TYPE_SCALAR : width == 2 ? TINYGLTF_TYPE_VEC2 : TINYGLTF_TYPE_VEC3;
+    accessor.count = values.size() / width;
+    if (with_bounds) set_bounds(accessor, values, width);
+    return add(accessor);
+  }
+
+  int indices(const std::vector<std::uint32_t>& values) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView =
+        view(values.data(), values.size() * sizeof values[0], TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    accessor.count = values.size();
+    return add(accessor);
+  }
+
+ private:
+  static void set_bounds(tinygltf::Accessor& accessor, const Floats& values, std::size_t width) {
+    accessor.minValues.assign(width, std::numeric_limits<double>::infinity());
+    accessor.maxValues.assign(width, -std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      accessor.minValues[i % width] = std::min<double>(accessor.minValues[i % width], values[i]);
+      accessor.maxValues[i % width] = std::max<double>(accessor.maxValues[i % width], values[i]);
+    }
+  }
+  int add(const tinygltf::Accessor& accessor) {
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  tinygltf::Model& model_;
+};
+
+void add_crest(tinygltf::Model& model, Packer& packer, tinygltf::Material& material) {
+  const std::string png = crest_png();
+  tinygltf::Image image;
+  image.name = "crest";
+  image.mimeType = "image/png";
+  image.bufferView = packer.view(png.data(), png.size(), 0);
+  model.images.push_back(image);
+  tinygltf::Sampler sampler;
+  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+  sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  model.samplers.push_back(sampler);
+  tinygltf::Texture texture;
+  texture.source = 0;
+  texture.sampler = 0;
+  model.textures.push_back(texture);
+  material.pbrMetallicRoughness.baseColorTexture.index = 0;
+}
+
+void add_material(tinygltf::Model& model, Packer& packer, bool with_crest) {
+  tinygltf::Material material;
+  material.name = "cloth";
+  material.doubleSided = true;
+  material.pbrMetallicRoughness.metallicFactor = 0.0;
+  material.pbrMetallicRoughness.roughnessFactor = 0.8;
+  if (with_crest)
+    add_crest(model, packer, material);
+  else
+    material.pbrMetallicRoughness.baseColorFactor = {0.18, 0.36, 0.60, 1.0};
+  model.materials.push_back(material);
+}
+
+void add_animation(tinygltf::Model& model, Packer& packer, const Floats& times) {
+  const std::size_t targets = times.size() - 1;
+  Floats weights(times.size() * targets, 0.0f);
+  for (std::size_t k = 1; k < times.size(); ++k) weights[k * targets + k - 1] = 1.0f;
+  tinygltf::AnimationSampler sampler;
+  sampler.input = packer.floats(times, 1, 0, true);
+  sampler.output = packer.floats(weights, 1, 0, false);
+  sampler.interpolation = "LINEAR";
+  tinygltf::AnimationChannel channel;
+  channel.sampler = 0;
+  channel.target_node = 0;
+  channel.target_path = "weights";
+  tinygltf::Animation animation;
+  animation.name = "motion";
+  animation.samplers.push_back(sampler);
+  animation.channels.push_back(channel);
+  model.animations.push_back(animation);
+  model.meshes[0].weights.assign(targets, 0.0);
+}
+
+tinygltf::Primitive primitive_of(const RunView& view, const std::vector<std::size_t>& frames,
+                                 Packer& packer) {
+  const Surface surface = surface_of(view);
+  constexpr int vertices = TINYGLTF_TARGET_ARRAY_BUFFER;
+  const Floats positions = positions_of(view, surface, frames[0]);
+  const Floats normals = normals_of(surface, positions, view.nodes);
+  tinygltf::Primitive primitive;
+  primitive.material = 0;
+  primitive.mode = surface.triangles         ? TINYGLTF_MODE_TRIANGLES
+                   : surface.indices.empty() ? TINYGLTF_MODE_POINTS
+                                             : TINYGLTF_MODE_LINE;
+  if (!surface.indices.empty()) primitive.indices = packer.indices(surface.indices);
+  primitive.attributes["POSITION"] = packer.floats(positions, 3, vertices, true);
+  if (surface.triangles) {
+    primitive.attributes["NORMAL"] = packer.floats(normals, 3, vertices, false);
+    primitive.attributes["TEXCOORD_0"] = packer.floats(surface.uv, 2, vertices, false);
+  }
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const Floats moved = positions_of(view, surface, frames[k]);
+    std::map<std::string, int> target;
+    target["POSITION"] = packer.floats(minus(moved, positions), 3, vertices, true);
+    if (surface.triangles)
+      target["NORMAL"] =
+          packer.floats(minus(normals_of(surface, moved, view.nodes), normals), 3, vertices, false);
+    primitive.targets.push_back(target);
+  }
+  return primitive;
+}
+
+} // namespace
+
+std::vector<std::size_t> frames_for_glb(const RunView& view) {
+  std::vector<std::size_t> good;
+  for (std::size_t f = 0; f < view.frames.size(); ++f) {
+    const auto& frame = view.frames[f];
+    // A motion that diverged ends in such frames; far beyond 1e18 even the sums of squares overflow in
+    // viewers.
+    const bool finite = std::all_of(frame.begin(), frame.end(), [](float v) { return std::abs(v) < 1e18f; });
+    const bool later =
+        good.empty() || static_cast<float>(view.frame_times[f] - view.frame_times[good[0]]) >
+                            static_cast<float>(view.frame_times[good.back()] - view.frame_times[good[0]]);
+    if (finite && later && frame.size() == view.nodes * 3) good.push_back(f);
+  }
+  if (good.size() <= glb_frames_at_most) return good;
+  std::vector<std::size_t> picked;
+  for (std::size_t k = 0; k < glb_frames_at_most; ++k)
+    picked.push_back(good[k * (good.size() - 1) / (glb_frames_at_most - 1)]);
+  return picked;
+}
+
+void write_glb(const RunView& view, const std::filesystem::path& path) {
+  const auto frames = frames_for_glb(view);
+  if (frames.empty() || view.nodes == 0)
+    throw WriteError(fmt::format("{}: no frame of the motion can be drawn", path.string()));
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  model.asset.generator = "Hopmesh";
+  Packer packer(model);
+  add_material(model, packer, view.crest && !view.triangles.empty());
+  tinygltf::Mesh mesh;
+  mesh.name = view.title;
+  mesh.primitives.push_back(primitive_of(view, frames, packer));
+  model.meshes.push_back(mesh);
+  tinygltf::Node node;
+  node.name = view.title;
+  node.mesh = 0;
+  model.nodes.push_back(node);
+  tinygltf::Scene scene;
+  scene.nodes.push_back(0);
+  model.scenes.push_back(scene);
+  model.defaultScene = 0;
+
+  Floats times;
+  for (const auto f : frames)
+    times.push_back(static_cast<float>(view.frame_times[f] - view.frame_times[frames[0]]));
+  if (times.size() > 1) add_animation(model, packer, times);
+
+  std::ostringstream bytes;
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, bytes, false, true))
+    throw WriteError(fmt::format("{}: the animation cannot be encoded", path.string()));
+  write_file(path, bytes.str());
+}
+
+} // namespace hopmesh::record
