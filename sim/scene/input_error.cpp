@@ -63,7 +63,7 @@ InputError input_error(const std::string& file, int line, const std::string& key
 std::string nearest_name(const std::string& name, const std::vector<std::string>& valid) {
   constexpr std::size_t longest = 100; // longer ones are no typing mistakes
   if (name.size() > longest) return "";
-  std::size_t limit = std::max<std::size_t>(1, name.size() / 3);
+  std::size_t limit = std::max<std::size_t>(1, (name.size() + 1) / 3);
   std::string nearest;
   for (const std::string& candidate : valid) {
     const std::size_t distance = edit_distance(lower(name), lower(candidate));

@@ -67,11 +67,14 @@ class ObjReader {
       ++line_;
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-      read_line(Words(line));
+      read_line(line);
     }
   }
 
-  void read_line(Words words) {
+  void read_line(std::string_view line) {
+    if (line.find('\0') != std::string_view::npos)
+      fail(line_, "a byte of value 0", "an OBJ mesh, which is text");
+    Words words(line);
     const std::string_view keyword = words.next();
     if (keyword == "v")
       read_vertex(words);

@@ -46,6 +46,7 @@ class SceneReader {
   }
 
   Scene read() {
+    if (source_.values().empty()) throw input_error(scene_.source, 0, "", "no key at all", "a scene file");
     keys_.text("name", scene_.name, "a name in quotes");
     read_shape();
     read_springs();

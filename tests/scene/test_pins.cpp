@@ -1,0 +1,91 @@
+// Which nodes a pin holds, on grids and on meshes from files.
+#include "tests/scene/scene_files.h"
+
+#include <gmock/gmock.h>
+
+namespace hopmesh::scene::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<std::size_t> held(Scene scene, const std::vector<Pin>& pins) {
+  scene.mesh.pinned = pins;
+  const Mesh mesh = build_mesh(scene);
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i)
+    if (mesh.pinned[i]) nodes.push_back(i);
+  return nodes;
+}
+
+//  0  1  2  3
+//  4  5  6  7
+//  8  9 10 11
+const Scene grid = grid_scene(3, 4);
+
+TEST(Pins, sidesOfAGrid) {
+  EXPECT_THAT(held(grid, {"left"}), ElementsAre(0, 4, 8));
+  EXPECT_THAT(held(grid, {"right"}), ElementsAre(3, 7, 11));
+  EXPECT_THAT(held(grid, {"top"}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(held(grid, {"bottom"}), ElementsAre(8, 9, 10, 11));
+  EXPECT_THAT(held(grid, {"corners"}), ElementsAre(0, 3, 8, 11));
+  EXPECT_TRUE(held(grid, {}).empty());
+}
+
+TEST(Pins, addUp) {
+  EXPECT_THAT(held(grid, {"left", "corners"}), ElementsAre(0, 3, 4, 8, 11));
+  EXPECT_THAT(held(grid, {std::int64_t{5}, "left", std::int64_t{0}, std::int64_t{5}}),
+              ElementsAre(0, 4, 5, 8));
+  EXPECT_THAT(held(grid, {std::int64_t{11}}), ElementsAre(11));
+}
+
+TEST(Pins, mustNameNodesOfTheMesh) {
+  EXPECT_THAT(complaint([] { held(grid, {std::int64_t{12}}); }),
+              ::testing::HasSubstr("found node 12, expected node numbers from 0 to 11"));
+  EXPECT_THAT(complaint([] { held(grid, {std::int64_t{-1}}); }), ::testing::HasSubstr("found node -1"));
+  EXPECT_THAT(complaint([] { held(grid, {"lefd"}); }), ::testing::HasSubstr("(did you mean left?)"));
+}
+
+TEST(Pins, mustLeaveANodeFree) {
+  EXPECT_THAT(complaint([] {
+                held(grid_scene(2, 5), {"top", "bottom"});
+              }),
+              ::testing::HasSubstr("found all 10 nodes pinned"));
+}
+
+/// Vertices 0..4 at (0,0,0) (2,0,0) (2,0,2) (0,0,2) and the peak (1,1,1).
+Scene tent(const std::string& up, double band) {
+  Scene scene = file_scene(folder + "good/tent.obj");
+  scene.mesh.up = up;
+  scene.mesh.pin_band = band;
+  return scene;
+}
+
+TEST(Pins, topAndBottomOfAFileMeshFollowItsUpAxis) {
+  EXPECT_THAT(held(tent("y", 0.02), {"top"}), ElementsAre(4));
+  EXPECT_THAT(held(tent("y", 0.02), {"bottom"}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(held(tent("z", 0.02), {"top"}), ElementsAre(2, 3));
+  EXPECT_THAT(held(tent("z", 0.02), {"bottom"}), ElementsAre(0, 1));
+  EXPECT_THAT(held(tent("x", 0.02), {"top"}), ElementsAre(1, 2));
+}
+
+TEST(Pins, leftAndRightOfAFileMeshAreAlongXUnlessThatIsUp) {
+  EXPECT_THAT(held(tent("z", 0.02), {"left"}), ElementsAre(0, 3));
+  EXPECT_THAT(held(tent("y", 0.02), {"right"}), ElementsAre(1, 2));
+  EXPECT_THAT(held(tent("x", 0.02), {"right"}), ElementsAre(4)); // along y
+}
+
+TEST(Pins, theBandIsAShareOfTheExtent) {
+  EXPECT_THAT(held(tent("z", 0.499), {"top"}), ElementsAre(2, 3));
+  EXPECT_THAT(held(tent("z", 0.5), {"top"}),
+              ElementsAre(2, 3, 4));                             // the peak at half the extent: just within
+  EXPECT_THAT(held(tent("z", 0.0), {"top"}), ElementsAre(2, 3)); // the highest always
+}
+
+TEST(Pins, theBandGrowsWithTheScale) {
+  Scene scene = tent("z", 0.5);
+  scene.mesh.scale = 100;
+  EXPECT_THAT(held(scene, {"top"}), ElementsAre(2, 3, 4));
+}
+
+} // namespace
+} // namespace hopmesh::scene::testing
