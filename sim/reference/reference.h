@@ -48,33 +48,35 @@ struct State {
 
 State initial_state(const scene::Mesh& mesh);
 
-/// C of math.md 1: [3 * nodes].
+/// C of docs/theory.md, section 1: [3 * nodes].
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
 /// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter
 /// than 1e-9.
 Vector expansion_point(const scene::Mesh& mesh, const State& state);
-/// E(V) of math.md 1 (paper eq. 15).
+/// E(V) of docs/theory.md, section 1 (paper eq. 15).
 double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
 /// Sum of alpha (|x_i - x_j| - L)^2.
 double spring_energy(const scene::Mesh& mesh, const Vector& position);
-/// W = -H, I = H V0 - g of math.md 2, about V0.
+/// W = -H, I = H V0 - g of docs/theory.md, section 2, about V0.
 Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
-/// The rule of math.md 3 from V, until no output moves by more than threshold in a sweep, or max_sweeps.
+/// The rule of docs/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more than
+/// threshold in a sweep, or max_sweeps.
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
                  std::uint32_t max_sweeps);
-/// Largest violation of the KKT conditions on the box [-1, 1], each s_i divided by its N_i.
+/// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
 double kkt_violation(const Network& network, const Vector& V);
 
-/// What one step did, for records and for `network --step`.
+/// What one step did, for records and for `network --step`: V0 and network of the last expansion, and the
+/// rest it relaxed to; sweeps of all expansions together.
 struct Step {
   Vector predicted, V0;
   Network network;
   Relaxation relaxation;
 };
 
-/// One whole step of math.md 4 (probe).
+/// One whole step of docs/theory.md, section 4 (probe).
 Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

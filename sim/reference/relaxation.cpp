@@ -18,7 +18,8 @@ double input_sum(const Network& network, const Vector& V, Eigen::Index neuron) {
   return s;
 }
 
-// N_i = sum_j |W_ij| + |I_i| (paper eq. 9, diagonal included): what keeps u within [-1, 1].
+// N_i = sum_j |W_ij| + |I_i| (paper eq. 9, diagonal included): what keeps u within [-1, 1]. In the order of
+// input_sum.
 Vector normalisers(const Network& network) {
   Vector N = network.I.cwiseAbs();
   for (Eigen::Index neuron = 0; neuron < N.size(); ++neuron)
@@ -26,13 +27,13 @@ Vector normalisers(const Network& network) {
   return N;
 }
 
-// Output stage (paper eqs. 9 to 12). A neuron that nothing reaches, N = 0, stays. In exact arithmetic the
-// result never leaves [-1, 1]; the clamp takes away what rounding adds.
+// Output stage (paper eqs. 9 to 12). A neuron that nothing reaches, N = 0, stays. No clamp: s and N are
+// summed in the same order, so that |s| <= N survives rounding, and V + (1 - V) rounded twice is at most 1.
 double fire(double s, double N, double V) {
   if (N == 0) return V;
   const double u = s / N;
   const double R = u >= 0 ? 1 - V : 1 + V;
-  return std::clamp(V + R * u, -1.0, 1.0);
+  return V + R * u;
 }
 
 /// One network, ready to sweep: everything a sweep needs is allocated here.

@@ -107,6 +107,17 @@ inline Network random_network(Random& random, Eigen::Index n) {
   return {W.sparseView(), I};
 }
 
+inline Network network_of(const Eigen::MatrixXd& W, const Vector& I) {
+  return {W.sparseView(), I};
+}
+
+/// A start in the box, often at its bounds: there the rule changes sides.
+inline Vector random_point(Random& random, Eigen::Index n) {
+  Vector V(n);
+  for (double& v : V) v = random.chance(0.3) ? (random.chance(0.5) ? 1 : -1) : random.between(-1, 1);
+  return V;
+}
+
 inline Order one_by_one(Eigen::Index neurons) {
   Order order;
   for (Eigen::Index n = 0; n < neurons; ++n) order.push_back({static_cast<std::uint32_t>(n)});
