@@ -4,6 +4,7 @@
 #include "rtl_model/spec/array_rules.h"
 #include "sim/scene/key_reader.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace hopmesh::scene {
@@ -70,14 +71,23 @@ void read_accumulator(const TomlSource& source, KeyReader& keys, spec::ArraySpec
   read_format(source, keys, key, a.formats.accumulator);
 }
 
-void read_array_table(KeyReader& keys, spec::ArraySpec& a) {
-  constexpr int any = 1'000'000; // the rules of the spec say which of these can be built
+/// Any integer: the rules of the spec say which can be built, and none of them reaches this far.
+void read_integer(const TomlSource& source, KeyReader& keys, const std::string& key, int& target) {
+  constexpr std::int64_t far = 1'000'000;
+  const TomlValue* found = keys.value(key);
+  if (!found) return;
+  const auto* whole = found->as<std::int64_t>();
+  if (!whole) throw source.error(*found, key, "an integer");
+  target = static_cast<int>(std::clamp(*whole, -far, far));
+}
+
+void read_array_table(const TomlSource& source, KeyReader& keys, spec::ArraySpec& a) {
   read_mode(keys, "array.schedule", a.schedule, spec::schedule_names);
   read_mode(keys, "array.normaliser", a.normaliser, spec::normaliser_names);
-  keys.integer("array.lanes", a.lanes, -any, any);
-  keys.integer("array.reciprocal_bits", a.reciprocal_bits, -any, any);
-  keys.integer("array.bus_bits", a.bus_bits, -any, any);
-  keys.real("array.clock_mhz", a.clock_mhz, any_real);
+  read_integer(source, keys, "array.lanes", a.lanes);
+  read_integer(source, keys, "array.reciprocal_bits", a.reciprocal_bits);
+  read_integer(source, keys, "array.bus_bits", a.bus_bits);
+  keys.real("array.clock_mhz", a.clock_mhz, any_number);
 }
 
 void read_formats_table(const TomlSource& source, KeyReader& keys, spec::ArraySpec& a) {
@@ -89,13 +99,13 @@ void read_formats_table(const TomlSource& source, KeyReader& keys, spec::ArraySp
   read_format(source, keys, "formats.link", a.formats.link);
 }
 
+/// A rule may be broken by a key that was left as it was; then there is no line to name.
 void check_rules(const TomlSource& source, const std::string& file, const spec::ArraySpec& a) {
   const auto fault = spec::validate(a);
   if (!fault) return;
-  const TomlValue* place = source.find(fault->key);
-  const bool in_override = place ? place->line == 0 : file.empty();
-  throw input_error(in_override ? "--set" : file, place ? place->line : 0, fault->key, fault->found,
-                    fault->expected);
+  if (const TomlValue* place = source.find(fault->key))
+    throw source.error(*place, fault->key, fault->expected);
+  throw input_error(file.empty() ? "--set" : file, 0, fault->key, fault->found, fault->expected);
 }
 
 /// What the keys of a source make of an array that had `a` before.
@@ -108,7 +118,7 @@ spec::ArraySpec changed(spec::ArraySpec a, const TomlSource& source, const std::
   else if (source.overridden())
     a.name = "custom"; // no longer what the preset's name promises
   keys.text("name", a.name, "a name in quotes");
-  read_array_table(keys, a);
+  read_array_table(source, keys, a);
   read_formats_table(source, keys, a);
   keys.refuse_unknown();
   check_rules(source, file, a);

@@ -1,6 +1,7 @@
 // One function per kind of value; each knows how to say what it expected.
 #include "sim/scene/key_reader.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::scene {
@@ -9,6 +10,11 @@ namespace {
 
 std::string last_part(const std::string& key) {
   return key.substr(key.rfind('.') + 1); // npos + 1 is 0: the whole key
+}
+
+/// Names and paths end up in titles, tables and messages of one line.
+bool has_control(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
 } // namespace
@@ -54,7 +60,7 @@ bool KeyReader::text(const std::string& key, std::string& target, const std::str
   const TomlValue* found = value(key);
   if (!found) return false;
   const auto* words = found->as<std::string>();
-  if (!words || words->empty()) throw source_.error(*found, key, expected);
+  if (!words || words->empty() || has_control(*words)) throw source_.error(*found, key, expected);
   target = *words;
   return true;
 }

@@ -5,6 +5,7 @@
 #include "sim/scene/toml_source.h"
 
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace hopmesh::scene {
@@ -16,6 +17,7 @@ struct Range {
 };
 
 // Bounds far outside any mesh, but near enough that products of a few numbers stay finite in double.
+inline constexpr Range any_number{-HUGE_VAL, HUGE_VAL, "a number"};
 inline constexpr Range any_real{-1e15, 1e15, "a number from -1e15 to 1e15"};
 inline constexpr Range above_zero{1e-15, 1e15, "a number above 0 (1e-15 to 1e15)"};
 inline constexpr Range from_zero{0, 1e15, "a number from 0 to 1e15"};

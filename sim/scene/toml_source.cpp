@@ -122,7 +122,7 @@ std::string describe(const TomlValue& value) {
   if (const auto* list = value.as<std::vector<TomlValue>>()) return fmt::format("a list of {}", list->size());
   if (const auto* flag = value.as<bool>()) return *flag ? "true" : "false";
   if (const auto* whole = value.as<std::int64_t>()) return std::to_string(*whole);
-  if (const auto* real = value.as<double>()) return fmt::format("{}", *real);
+  if (const auto* real = value.as<double>()) return fmt::format("{:#}", *real); // 3.0, not 3
   return in_quotes(*value.as<std::string>());
 }
 

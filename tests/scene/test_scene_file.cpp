@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 
 TEST(SceneFile, readsEveryKey) {
   const Scene s = read_inputs(folder + "good/every_key.toml", "", {}).scene;
-  EXPECT_EQ(s.name, "every \"key\"\t= ✓");
+  EXPECT_EQ(s.name, "every \"key\"= ✓");
   EXPECT_EQ(s.source, folder + "good/every_key.toml");
   EXPECT_EQ(s.mesh.grid->rows, 4);
   EXPECT_EQ(s.mesh.grid->columns, 5);
