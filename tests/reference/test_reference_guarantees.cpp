@@ -161,8 +161,8 @@ TEST(ReferenceGuarantees, RestsWhereTheKktConditionsHold) {
     for (double& v : start) v = random.between(-1, 1);
     const Relaxation rest = relax(net, one_by_one(n), start, 1e-15, 200000);
     // s = 0, or V at a bound with s pushing outward, told without the function under test. |u| * room <=
-    // 1e-15 in the last sweep leaves the lesser of them below 4e-8; the slow case of the test below leaves
-    // some 1 / sweeps.
+    // 1e-15 in the last sweep leaves the lesser of them below 4e-8; the slow case of
+    // AMinimumAtABoundWithoutPush leaves some 1 / sweeps.
     const double tolerance = rest.converged ? 1e-7 : 10.0 / rest.sweeps;
     converged += rest.converged;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -182,7 +182,7 @@ TEST(ReferenceGuarantees, RestsWhereTheKktConditionsHold) {
 
 TEST(ReferenceGuarantees, AnyOrderReachesTheOneMinimumOfAConvexNetwork) {
   // The minimum is chosen first, well inside or at a bound and well pushed: where a neuron rests near a bound
-  // with next to no push, it gets there slowly (the test below), and no tolerance would be honest.
+  // with next to no push, it gets there slowly (the test after this one), and no tolerance would be honest.
   Random random(35);
   for (int k = 0; k < 100; ++k) {
     const Eigen::Index n = 2 + random.below(12);
