@@ -6,6 +6,7 @@
 #include "sim/record/output_file.h"
 #include "sim/record/report_assets.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -123,7 +124,8 @@ std::string three_library(const std::filesystem::path& folder) {
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   // In a script "<\/" means the same as "</", but does not end the element.
   for (std::size_t at = 0; (at = text.find("</script", at)) != std::string::npos;) text.insert(at + 1, "\\");
-  return text.empty() ? "// three.js was not found: the page draws on a 2-D canvas." : text;
+  if (text.empty()) return "// three.js was not found: the page draws on a 2-D canvas.";
+  return report_assets().at("three_license.js") + text;
 }
 
 /// The page's scripts share one scope that nothing outside can see.

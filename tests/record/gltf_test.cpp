@@ -165,6 +165,12 @@ TEST(Gltf, MotionWithoutOneGoodFrameIsRefused) {
   EXPECT_TRUE(folder.empty());
 }
 
+TEST(Gltf, TitleMayHoldAnyBytes) {
+  RunView view = sample_run(3, 2);
+  view.title = "flag \xff \"quoted\" </script>";
+  EXPECT_EQ(loaded(view).meshes.at(0).name, "flag \xef\xbf\xbd \"quoted\" </script>");
+}
+
 TEST(Gltf, SameRunSameBytes) {
   const Folder folder;
   write_glb(sample_run(6, 10), folder / "a.glb");

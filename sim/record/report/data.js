@@ -1,7 +1,8 @@
 // What the run left for this page: decoded from the JSON block, turned so that up is +y.
 
 function decode(text, Type) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const raw = atob(text), bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
   return new Type(bytes.buffer);
 }
 

@@ -84,7 +84,7 @@ function makeSurface(run) {
   return surface;
 }
 
-// The scale's end: beyond all but the last hundredth of what two dozen frames show.
+// The scale's end: beyond all but the last hundredth of what two dozen frames show; of a motion that diverged, half.
 function rangeOfStrain(run, surface) {
   const sizes = [];
   const stride = Math.max(1, Math.floor(run.frames.length / 24));
@@ -93,23 +93,24 @@ function rangeOfStrain(run, surface) {
     for (const strain of surface.strains) if (Number.isFinite(strain)) sizes.push(Math.abs(strain));
   }
   sizes.sort((a, b) => a - b);
-  return niceAbove(Math.max(sizes[Math.floor(sizes.length * 0.99)] || 0, 1e-6));
+  return niceAbove(Math.max(sizes[Math.floor(sizes.length * (run.good ? 0.99 : 0.5))] || 0, 1e-6));
 }
 
 // The box of the whole motion; what a diverging run throws far away does not count.
 function boundsOf(run) {
-  const start = boxOf(run.frames.slice(0, 1), Infinity);
+  const start = boxOf(run.frames.slice(0, 1), [0, 0, 0], Infinity);
   const size = Math.hypot(...start.high.map((h, k) => h - start.low[k])) || 1;
-  const box = boxOf(run.frames, 3 * size + Math.max(...start.high.map(Math.abs), ...start.low.map(Math.abs)));
+  const centre = start.high.map((h, k) => (h + start.low[k]) / 2);
+  const box = boxOf(run.frames, centre, run.good ? Infinity : 0.8 * size);
   box.size = Math.hypot(...box.high.map((h, k) => h - box.low[k])) || 1;
   return box;
 }
 
-function boxOf(frames, limit) {
+function boxOf(frames, centre, reach) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const frame of frames)
     for (let i = 0; i < frame.length; ++i) {
-      if (!(Math.abs(frame[i]) <= limit)) continue;
+      if (!Number.isFinite(frame[i]) || Math.abs(frame[i] - centre[i % 3]) > reach) continue;
       low[i % 3] = Math.min(low[i % 3], frame[i]);
       high[i % 3] = Math.max(high[i % 3], frame[i]);
     }

@@ -28,6 +28,14 @@ function makeCanvasView(holder, run, surface) {
     return DARKEST + (1 - DARKEST) * Math.abs(sum);
   }
 
+  // False for what a diverged motion threw beyond any picture, and for what lies behind the eye.
+  function inSight(i) {
+    return [0, 1, 2].every((c) => {
+      const n = run.triangles[3 * i + c] * 3;
+      return Math.abs(screen[n]) < 1e5 && Math.abs(screen[n + 1]) < 1e5 && screen[n + 2] > 0;
+    });
+  }
+
   function colourOf(i, look) {
     if (look.strain) {
       const mean = [0, 1, 2].reduce((sum, c) => sum + surface.strains[run.triangles[3 * i + c]] / 3, 0);
@@ -73,7 +81,7 @@ function makeCanvasView(holder, run, surface) {
   }
 
   function paintTriangle(i, look) {
-    const shade = Math.max(DARKEST, Math.min(1, shadeOf(i)));
+    const shade = Math.max(DARKEST, Math.min(1, shadeOf(i) || 0));
     if (picture && !look.strain && run.triangles.length / 3 <= TEXTURED_AT_MOST) return paintPicture(i, shade);
     trace(i);
     ink.fillStyle = "rgb(" + colourOf(i, look).map((c) => Math.round(c * shade)).join(",") + ")";
@@ -82,7 +90,7 @@ function makeCanvasView(holder, run, surface) {
 
   function paintSurface(look) {
     const depth = (i) => [0, 1, 2].reduce((sum, c) => sum + screen[run.triangles[3 * i + c] * 3 + 2], 0);
-    const order = Array.from({ length: run.triangles.length / 3 }, (_, i) => [depth(i), i]);
+    const order = Array.from({ length: run.triangles.length / 3 }, (_, i) => i).filter(inSight).map((i) => [depth(i), i]);
     for (const [, i] of order.sort((a, b) => b[0] - a[0])) paintTriangle(i, look);
   }
 

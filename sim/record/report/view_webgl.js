@@ -180,7 +180,8 @@ function addWires(scene, run, surface) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", position);
   geometry.setAttribute("color", colour);
-  const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors }));
+  const material = new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors, transparent: true });
+  const lines = new THREE.LineSegments(geometry, material);
   lines.frustumCulled = false;
   scene.add(lines);
   const p = surface.positions, calm = linear(232, 236, 240), bare = linear(52, 72, 96);
@@ -188,6 +189,7 @@ function addWires(scene, run, surface) {
     update(look) {
       lines.visible = look.springs;
       if (!look.springs) return;
+      material.opacity = run.triangles.length && !look.strain ? 0.45 : 1; // the picture stays visible below
       run.springs.forEach((node, k) => {
         const share = surface.springStrains[k >> 1] / surface.strainRange;
         const c = look.strain ? linear(...strainColour(share).map((v) => v * 0.72)) : run.triangles.length ? calm : bare;

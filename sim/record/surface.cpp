@@ -1,0 +1,84 @@
+// From nodes and triangles to vertices, indices and normals.
+#include "sim/record/surface.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace hopmesh::record {
+namespace {
+
+/// glTF is y-up: a quarter turn brings the scene's own up there and keeps left and right.
+std::array<float, 3> turned(const std::string& up, float x, float y, float z) {
+  if (up == "x") return {-y, x, z};
+  if (up == "z") return {x, z, -y};
+  return {x, y, z};
+}
+
+Surface lines_of(const RunView& view) {
+  Surface surface;
+  surface.triangles = false;
+  for (std::size_t n = 0; n < view.nodes; ++n) surface.node.push_back(static_cast<std::uint32_t>(n));
+  for (const auto& spring : view.springs)
+    surface.indices.insert(surface.indices.end(), {spring.node[0], spring.node[1]});
+  return surface;
+}
+
+} // namespace
+
+Surface surface_of(const RunView& view) {
+  if (view.triangles.empty()) return lines_of(view);
+  Surface surface;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
+  for (const auto& triangle : view.triangles)
+    for (const ViewCorner& c : triangle) {
+      const auto next = static_cast<std::uint32_t>(surface.node.size());
+      const auto [at, is_new] = known.try_emplace({c.node, c.u, c.v}, next);
+      if (is_new) {
+        surface.node.push_back(c.node);
+        surface.uv.insert(surface.uv.end(), {c.u, c.v});
+      }
+      surface.indices.push_back(at->second);
+    }
+  return surface;
+}
+
+Floats positions_of(const RunView& view, const Surface& surface, std::size_t frame) {
+  Floats out;
+  out.reserve(surface.node.size() * 3);
+  for (const auto node : surface.node) {
+    const float* p = view.frames[frame].data() + std::size_t{node} * 3;
+    for (const float coordinate : turned(view.up, p[0], p[1], p[2])) out.push_back(coordinate);
+  }
+  return out;
+}
+
+Floats normals_of(const Surface& surface, const Floats& positions, std::size_t nodes) {
+  std::vector<std::array<double, 3>> sums(nodes, {0, 0, 0});
+  for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
+    const float* a = &positions[std::size_t{surface.indices[i]} * 3];
+    const float* b = &positions[std::size_t{surface.indices[i + 1]} * 3];
+    const float* c = &positions[std::size_t{surface.indices[i + 2]} * 3];
+    const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]};
+    const double v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      auto& sum = sums[surface.node[surface.indices[i + corner]]];
+      for (int k = 0; k < 3; ++k)
+        sum[static_cast<std::size_t>(k)] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+  }
+  Floats out;
+  out.reserve(surface.node.size() * 3);
+  for (const auto node : surface.node) {
+    const auto& n = sums[node];
+    const double size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const bool flat = size > 0 && std::isfinite(size);
+    for (std::size_t k = 0; k < 3; ++k)
+      out.push_back(flat ? static_cast<float>(n[k] / size) : k == 1 ? 1.0f : 0.0f);
+  }
+  return out;
+}
+
+} // namespace hopmesh::record
