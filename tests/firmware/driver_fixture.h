@@ -1,0 +1,126 @@
+// What the driver's tests share: a small mesh, the accesses of open and relax in order, and the codes to
+// expect.
+#pragma once
+
+#include "tests/support/bus_mock.h"
+#include "tests/support/firmware_mesh.h"
+#include "tests/support/slow_fixed.h"
+
+extern "C" {
+#include "firmware/driver.h"
+#include "firmware/registers.h"
+}
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hopmesh::tests {
+
+/// An array as its capability registers tell it.
+struct FakeArray {
+  std::uint32_t normaliser = HM_NORMALISER_DIVIDER;
+  spec::NumberFormat weight{16, 1, spec::Rounding::rnd, spec::Overflow::sat};
+  spec::NumberFormat bias{24, 9, spec::Rounding::rnd, spec::Overflow::sat};
+  spec::NumberFormat state{16, 2, spec::Rounding::trn_zero, spec::Overflow::sat};
+};
+
+inline std::uint32_t packed(const spec::NumberFormat& f) {
+  return static_cast<std::uint32_t>(f.width) | static_cast<std::uint32_t>(f.integer_bits) << 8 |
+         static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
+}
+
+/// A path of three free nodes 0 - 1 - 2, held by the pinned node 3: planar, so that it can be checked by
+/// hand.
+inline std::vector<PlainSpring> path_springs() {
+  return {{0, 1, 1, 1}, {1, 2, 1, 1}, {2, 3, 1, 1}};
+}
+
+/// Largest shift by which a value of this size still fits the format, found by trying.
+inline int room_for(double largest, const spec::NumberFormat& f) {
+  int shift = 1000;
+  while (std::ldexp(largest, shift) > std::ldexp(static_cast<double>(f.max_raw()), -f.fraction_bits()))
+    --shift;
+  return shift;
+}
+
+class DriverTest : public testing::Test {
+ protected:
+  DriverTest() : mesh(path_springs(), {false, false, false, true}, 2) {}
+
+  /// open, in order. Bursts are as long as the buffer.
+  void expect_open(const FakeArray& array) {
+    bus.expect_read(HM_REG_ID, HM_ID_VALUE);
+    bus.expect_read(HM_REG_VERSION, HM_VERSION_VALUE);
+    bus.expect_read(HM_REG_CAP_CELLS, mesh.mesh.cells);
+    bus.expect_read(HM_REG_CAP_NEURONS_PER_CELL, mesh.mesh.components);
+    const std::uint32_t links = mesh.mesh.first_link[mesh.mesh.cells];
+    bus.expect_read(HM_REG_CAP_LINK_WORDS, links);
+    expect_bursts(false, HM_WINDOW_FIRST_LINK,
+                  {mesh.mesh.first_link, mesh.mesh.first_link + mesh.mesh.cells + 1});
+    expect_bursts(false, HM_WINDOW_LINK, {mesh.mesh.link_to, mesh.mesh.link_to + links});
+    bus.expect_read(HM_REG_CAP_NORMALISER, array.normaliser);
+    bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, packed(array.weight));
+    bus.expect_read(HM_REG_CAP_FORMAT_BIAS, packed(array.bias));
+    bus.expect_read(HM_REG_CAP_FORMAT_STATE, packed(array.state));
+    bus.expect_write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+  }
+  int open() {
+    return hm_driver_open(&driver, bus.bus(), &mesh.mesh, buffer.data(), std::uint32_t(buffer.size()));
+  }
+
+  /// relax, in order, for the network as it stands in `mesh`, one exponent for all of it.
+  void expect_relax(const FakeArray& array, int shift, std::uint32_t threshold_raw, std::uint32_t max_sweeps,
+                    const std::vector<std::uint32_t>& answer) {
+    bus.expect_read(HM_REG_STATUS, HM_STATUS_DONE);
+    expect_bursts(true, HM_WINDOW_WEIGHT, codes(mesh.weight, shift, array.weight));
+    expect_bursts(true, HM_WINDOW_BIAS, codes(mesh.bias, shift, array.bias));
+    expect_bursts(true, HM_WINDOW_OUTPUT, codes(mesh.output, 0, array.state));
+    bus.expect_write(HM_REG_THRESHOLD, threshold_raw);
+    bus.expect_write(HM_REG_MAX_SWEEPS, max_sweeps);
+    bus.expect_write(HM_REG_CONTROL, HM_CONTROL_START);
+    bus.expect_wait();
+    bus.expect_write(HM_REG_IRQ_STATUS, HM_IRQ_DONE);
+    bus.expect_read(HM_REG_STATUS, HM_STATUS_DONE | HM_STATUS_CONVERGED);
+    bus.expect_read(HM_REG_SWEEPS, 17);
+    bus.expect_read(HM_REG_CYCLES_LO, 0x89ABCDEFu);
+    bus.expect_read(HM_REG_CYCLES_HI, 0x12u);
+    expect_bursts(false, HM_WINDOW_OUTPUT, answer);
+  }
+  int relax(double threshold, std::uint32_t max_sweeps) {
+    return hm_driver_relax(&driver, &mesh.mesh, &mesh.network, threshold, max_sweeps, &result);
+  }
+
+  static std::vector<std::uint32_t> codes(const std::vector<double>& values, int shift,
+                                          const spec::NumberFormat& f) {
+    std::vector<std::uint32_t> words;
+    for (double x : values) words.push_back(static_cast<std::uint32_t>(quantise_double(x, shift, f)));
+    return words;
+  }
+
+  void expect_bursts(bool write, std::uint32_t address, const std::vector<std::uint32_t>& words) {
+    for (std::size_t done = 0; done < words.size(); done += buffer.size()) {
+      const std::vector<std::uint32_t> part(words.begin() + done,
+                                            words.begin() + std::min(words.size(), done + buffer.size()));
+      const auto at = static_cast<std::uint32_t>(address + 4 * done);
+      write ? bus.expect_write_burst(at, part) : bus.expect_read_burst(at, part);
+    }
+  }
+
+  /// A network with the largest weight and bias given, the rest smaller, signs mixed.
+  void fill(double largest_weight, double largest_bias) {
+    for (std::size_t k = 0; k < mesh.weight.size(); ++k)
+      mesh.weight[k] = largest_weight * (k % 2 ? -1 : 1) / (1.0 + 0.37 * k);
+    for (std::size_t k = 0; k < mesh.bias.size(); ++k)
+      mesh.bias[k] = largest_bias * (k % 2 ? 1 : -1) / (1.0 + k);
+    for (std::size_t k = 0; k < mesh.output.size(); ++k) mesh.output[k] = -1 + 0.4 * k;
+  }
+
+  FirmwareMesh mesh;
+  std::vector<std::uint32_t> buffer = std::vector<std::uint32_t>(64);
+  hm_driver driver{};
+  hm_relaxation result{};
+  BusMock bus;
+};
+
+} // namespace hopmesh::tests

@@ -1,0 +1,137 @@
+// The firmware's time step with a solver in double, against the reference's for twenty steps.
+#include "tests/firmware/reference_pair.h"
+
+extern "C" {
+#include "firmware/bus.h"
+}
+
+#include <gtest/gtest.h>
+
+namespace hopmesh::tests {
+namespace {
+
+/// The rule of docs/theory.md, section 3, in double and in number order, on the firmware's own layout.
+int relax_in_double(void*, const hm_mesh* m, hm_network* n, double threshold, std::uint32_t max_sweeps,
+                    hm_relaxation* result) {
+  *result = {};
+  while (result->sweeps < max_sweeps && !result->converged) {
+    double largest = 0;
+    for (std::uint32_t c = 0; c < m->cells; ++c)
+      for (std::uint32_t p = 0; p < m->components; ++p) {
+        const double bias = n->bias[c * m->components + p];
+        double s = bias, norm = std::abs(bias);
+        for (std::uint32_t k = 0; k < hm_row_length(m, c); ++k) {
+          const double w = n->weight[hm_row_offset(m, c, p) + k];
+          const std::uint32_t block = k / m->components;
+          const std::uint32_t source = block == 0 ? c : m->link_to[m->first_link[c] + block - 1];
+          s += w * n->output[source * m->components + k % m->components];
+          norm += std::abs(w);
+        }
+        if (norm == 0) continue;
+        double& v = n->output[c * m->components + p];
+        const double u = s / norm, moved = (u >= 0 ? 1 - v : 1 + v) * u;
+        v += moved;
+        largest = std::max(largest, std::abs(moved));
+      }
+    result->sweeps += 1;
+    result->converged = largest <= threshold;
+  }
+  return HM_OK;
+}
+
+int refuse(void*, const hm_mesh*, hm_network*, double, std::uint32_t, hm_relaxation*) {
+  return HM_ERROR_STOPPED;
+}
+
+/// The firmware's state between steps, with its arrays.
+struct Moving {
+  explicit Moving(Pair& pair) {
+    const std::size_t nodes = pair.scene.nodes();
+    for (std::size_t k = 0; k < 3 * nodes; ++k) position.push_back(pair.scene.position[k / 3][k % 3]);
+    velocity.resize(3 * nodes), acceleration.resize(3 * nodes), predicted.resize(3 * nodes);
+    energy_change.resize(pair.firmware.mesh.cells), start.resize(pair.firmware.neurons());
+    state.position = position.data(), state.velocity = velocity.data();
+    state.acceleration = acceleration.data(), state.predicted = predicted.data();
+    state.energy_change = energy_change.data(), state.start = start.data();
+    state.network = pair.firmware.network;
+  }
+  std::vector<double> position, velocity, acceleration, predicted, energy_change, start;
+  hm_state state{};
+};
+
+hm_motion random_motion(Dice& dice) {
+  hm_motion m{};
+  m.time_step = 0.05, m.friction = 0.99, m.gamma = dice.one_in(2) ? 40 : 4000,
+  m.beta = dice.one_in(3) ? 0 : 1;
+  m.acceleration_memory = dice.one_in(2);
+  m.energy_of_all_springs = dice.one_in(2);
+  m.force_on_acceleration = dice.one_in(2);
+  m.force[0] = 0.1, m.force[1] = dice.unit() - 0.5, m.force[2] = -0.2;
+  m.threshold = 1e-7, m.max_sweeps = 40;
+  m.expansions = 1 + static_cast<std::uint32_t>(dice.below(2));
+  return m;
+}
+
+reference::Order number_order(const Pair& pair) {
+  reference::Order order;
+  for (std::uint32_t c = 0; c < pair.firmware.mesh.cells; ++c)
+    for (std::uint32_t p = 0; p < pair.firmware.mesh.components; ++p)
+      order.push_back({static_cast<std::uint32_t>(pair.reference_index(c, p))});
+  return order;
+}
+
+double largest_difference(const std::vector<double>& a, const reference::Vector& b) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    largest = std::max(largest, std::abs(a[k] - b[static_cast<Eigen::Index>(k)]));
+  return largest;
+}
+
+/// The seed is the parameter.
+class TwentySteps : public testing::TestWithParam<int> {};
+
+TEST_P(TwentySteps, FollowTheReference) {
+  Dice dice(GetParam());
+  Pair pair(random_scene_mesh(dice, dice.one_in(2)));
+  const hm_motion motion = random_motion(dice);
+  const hm_solver solver{nullptr, &relax_in_double};
+  const reference::Order order = number_order(pair);
+  reference::State expected = reference::initial_state(pair.scene);
+  Moving moving(pair);
+  for (int step = 0; step < 20; ++step) {
+    hm_step_result result;
+    ASSERT_EQ(hm_step(&pair.firmware.mesh, &motion, &solver, &moving.state, &result), HM_OK);
+    const reference::Step taken = reference::advance(pair.scene, reference_motion(motion), order, expected);
+    const double scale = 1 + expected.acceleration.cwiseAbs().maxCoeff();
+    ASSERT_LT(largest_difference(moving.predicted, taken.predicted), 1e-9) << "step " << step;
+    ASSERT_LT(largest_difference(moving.position, expected.position), 1e-9) << "step " << step;
+    ASSERT_LT(largest_difference(moving.velocity, expected.velocity), 1e-9 * scale) << "step " << step;
+    ASSERT_LT(largest_difference(moving.acceleration, expected.acceleration), 1e-9 * scale)
+        << "step " << step;
+    ASSERT_EQ(moving.state.step, expected.step);
+    const double energy = reference::spring_energy(pair.scene, expected.position);
+    ASSERT_NEAR(hm_spring_energy(&pair.firmware.mesh, moving.position.data()), energy, 1e-9 * (1 + energy))
+        << "step " << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomMeshes, TwentySteps, testing::Range(1, 41));
+
+TEST(Integrator, ASolversErrorLeavesTheMotionAlone) {
+  Dice dice(7);
+  Pair pair(random_scene_mesh(dice, false));
+  const hm_motion motion = random_motion(dice);
+  Moving moving(pair);
+  for (double& v : moving.velocity) v = dice.unit();
+  const Moving before = moving;
+  const hm_solver solver{nullptr, &refuse};
+  hm_step_result result;
+  EXPECT_EQ(hm_step(&pair.firmware.mesh, &motion, &solver, &moving.state, &result), HM_ERROR_STOPPED);
+  EXPECT_EQ(moving.position, before.position);
+  EXPECT_EQ(moving.velocity, before.velocity);
+  EXPECT_EQ(moving.acceleration, before.acceleration);
+  EXPECT_EQ(moving.state.step, 0u);
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,109 @@
+// hm_quantise, the firmware's way from a double to a raw code, against the bit-by-bit oracle in every mode.
+#include "tests/support/random_network.h"
+#include "tests/support/slow_fixed.h"
+
+extern "C" {
+#include "firmware/driver.h"
+#include "firmware/registers.h"
+}
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hopmesh::tests {
+namespace {
+
+using spec::NumberFormat;
+using spec::Overflow;
+using spec::Rounding;
+
+hm_format firmware_format(const NumberFormat& f) {
+  return {f.width, f.integer_bits, static_cast<int>(f.rounding), static_cast<int>(f.overflow)};
+}
+
+/// Code and clip flag against the oracle. Clipped: the value, rounded, did not fit.
+void expect_code(double value, int shift, const NumberFormat& f, const std::string& where = "") {
+  const hm_format format = firmware_format(f);
+  NumberFormat roomy = f;
+  roomy.width += 30;
+  roomy.integer_bits += 30;
+  roomy.overflow = Overflow::sat;
+  const std::int64_t wanted = quantise_double(value, shift, f);
+  int clipped = 0;
+  ASSERT_EQ(hm_quantise(value, shift, &format, &clipped), wanted)
+      << f.text() << " " << std::hexfloat << value << " * 2^" << std::dec << shift << " " << where;
+  ASSERT_EQ(clipped != 0, quantise_double(value, shift, roomy) != wanted)
+      << f.text() << " " << std::hexfloat << value << " * 2^" << std::dec << shift << " " << where;
+}
+
+template <typename Body> void for_every_mode(int width, int integer_bits, Body body) {
+  for (int q = 0; q < 7; ++q)
+    for (int o = 0; o < 4; ++o)
+      body(NumberFormat{width, integer_bits, static_cast<Rounding>(q), static_cast<Overflow>(o)});
+}
+
+TEST(Quantise, ModesAreNumberedAsTheSpecNumbersThem) {
+  EXPECT_EQ(HM_RND_CONV, static_cast<int>(Rounding::rnd_conv));
+  EXPECT_EQ(HM_TRN, static_cast<int>(Rounding::trn));
+  EXPECT_EQ(HM_TRN_ZERO, static_cast<int>(Rounding::trn_zero));
+  EXPECT_EQ(HM_SAT_SYM, static_cast<int>(Overflow::sat_sym));
+  EXPECT_EQ(HM_WRAP, static_cast<int>(Overflow::wrap));
+}
+
+TEST(Quantise, EveryQuarterOfALastPlaceInAByte) {
+  for_every_mode(8, 3, [](const NumberFormat& f) {
+    for (int quarter = -1100; quarter <= 1100; ++quarter) expect_code(std::ldexp(quarter, -7), 0, f);
+  });
+}
+
+TEST(Quantise, JustBesideEveryTie) {
+  for_every_mode(8, 3, [](const NumberFormat& f) {
+    for (int half = -260; half <= 260; ++half)
+      for (double toward : {-1e9, 1e9}) expect_code(std::nextafter(std::ldexp(half, -6), toward), 0, f);
+  });
+}
+
+TEST(Quantise, TinyAndHugeValues) {
+  for_every_mode(16, 2, [](const NumberFormat& f) {
+    for (double x : {0.0, 5e-324, 2.2250738585072014e-308, 1e-300, 1e-20, 0x1p-15, 0x1p-16})
+      for (double sign : {1.0, -1.0}) expect_code(sign * x, 0, f);
+    if (f.overflow == Overflow::wrap) return;
+    for (double x : {1e10, 0x1p48, 1e19, 1e100, 1.7976931348623157e308})
+      for (double sign : {1.0, -1.0}) expect_code(sign * x, 0, f);
+  });
+}
+
+TEST(Quantise, HugeValuesKeepTheirLowBitsWhenTheyWrap) {
+  // 2^52 + 1 times 2^k, counted in last places: its lowest set bit counts until it leaves the word.
+  const NumberFormat f{16, 2, Rounding::trn, Overflow::wrap};
+  for (int k = 0; k <= 40; ++k)
+    for (double sign : {1.0, -1.0}) expect_code(sign * std::ldexp(0x1p52 + 1, k - 14), 0, f);
+}
+
+TEST(Quantise, ScalesByThePowerOfTwoExactly) {
+  const NumberFormat f{16, 1, Rounding::rnd, Overflow::sat};
+  for (int shift = -900; shift <= 900; shift += 7) expect_code(std::ldexp(0.7, -shift), shift, f);
+}
+
+TEST(Quantise, RandomValuesAndFormats) {
+  const std::uint64_t seed = 31;
+  Dice dice(seed);
+  for (int k = 0; k < 300000; ++k) {
+    NumberFormat f;
+    f.width = static_cast<int>(dice.between(4, 32));
+    f.integer_bits = static_cast<int>(dice.between(1, f.width - 1));
+    f.rounding = static_cast<Rounding>(dice.below(7));
+    f.overflow = static_cast<Overflow>(dice.below(4));
+    const int scale = static_cast<int>(dice.between(-30, 5)), shift = static_cast<int>(dice.between(-40, 40));
+    double value = std::ldexp(dice.unit() * 2 - 1, f.integer_bits + scale);
+    if (dice.one_in(3))
+      value = std::ldexp(std::round(std::ldexp(value, f.fraction_bits() + 1)), -f.fraction_bits() - 1);
+    expect_code(std::ldexp(value, -shift), shift, f,
+                "seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    if (HasFatalFailure()) return;
+  }
+}
+
+} // namespace
+} // namespace hopmesh::tests
