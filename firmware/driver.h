@@ -6,6 +6,10 @@
 #include "firmware/bus.h"
 #include "firmware/network.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct hm_format {
   int width, integer_bits, rounding, overflow;
 } hm_format;
@@ -36,5 +40,9 @@ int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipp
    HM_OK, or an error of bus.h; on an error network->output is as it was. */
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
                     uint32_t max_sweeps, hm_relaxation* result);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

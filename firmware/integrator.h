@@ -5,6 +5,10 @@
 
 #include "firmware/driver.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Whoever relaxes a network: the driver with an array behind it, or anything that answers the same way. */
 typedef struct hm_solver {
   void* context;
@@ -45,5 +49,9 @@ int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solve
 
 /* Sum of alpha (|x_i - x_j| - L)^2 over all springs, positions [nodes * 3]. */
 double hm_spring_energy(const hm_mesh* mesh, const double* position);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

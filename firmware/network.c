@@ -84,19 +84,23 @@ static void add_spring_end(const hm_mesh* mesh, hm_network* network, uint32_t ce
   for (uint32_t p = 0; p < mesh->components; ++p) network->bias[cell * mesh->components + p] -= side * f[p];
 }
 
-/* The unit-length term of one node: W_ii -= B_i, -g_i -= b_i (none where V0 has no direction). */
+/* The unit-length term of one node: W_ii -= B_i, -g_i -= b_i. Where V0 has no direction (only after a second
+   expansion) the term pulls to straight down: beta |V - m|^2. */
 static void add_unit_term(const hm_mesh* mesh, hm_network* network, uint32_t cell, double beta) {
   const uint32_t n = mesh->components;
   const double* v = network->output + cell * n;
   double block[3][3], square = 0;
   for (uint32_t p = 0; p < n; ++p) square += v[p] * v[p];
   const double length = sqrt(square);
-  if (!(length > 0)) return;
+  const int short_of_direction = length < 1e-9;
   for (uint32_t p = 0; p < n; ++p) {
-    const double mp = v[p] / length;
-    for (uint32_t q = 0; q < n; ++q)
-      block[p][q] = 2 * beta * ((p == q) - ((p == q) - mp * (v[q] / length)) / length);
-    network->bias[cell * n + p] -= 2 * beta * (length - 1) * mp;
+    const double down = p + 1 == n ? -1.0 : 0.0;
+    const double mp = short_of_direction ? down : v[p] / length;
+    for (uint32_t q = 0; q < n; ++q) {
+      const double turn = short_of_direction ? 0.0 : ((p == q) - mp * (v[q] / length)) / length;
+      block[p][q] = 2 * beta * ((p == q) - turn);
+    }
+    network->bias[cell * n + p] -= 2 * beta * (short_of_direction ? v[p] - down : (length - 1) * mp);
   }
   add_block(mesh, network, cell, 0, -1.0, block);
 }

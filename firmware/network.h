@@ -5,6 +5,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define HM_PINNED UINT32_MAX
 
 typedef struct hm_spring {
@@ -46,5 +50,9 @@ int hm_mesh_connect(hm_mesh* mesh);
    A spring of no length at the expansion point keeps its L = 0 part only (its direction is undefined). */
 void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
                       hm_network* network);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -19,8 +19,8 @@ CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec
       phases_(spec::phases_of(topology_, array_.schedule)),
       cycles_(spec::cycle_model(array_, topology_, phases_)), period_(1.0 / array.clock_mhz, sc_core::SC_US),
       detector("detector"), sequencer("sequencer", cycles_, period_, detector) {
-  const ArrayContext context{array_, topology_, spec::accumulator_format(array_, topology_.most_taps()),
-                             sequencer, detector};
+  const ArrayContext context{array_,    topology_, spec::accumulator_format(array_, topology_.most_taps()),
+                             sequencer, detector,  extremes};
   const auto phase = phase_of_neurons(topology_, phases_);
   const std::size_t per_cell = topology_.neurons_per_cell;
   for (std::size_t c = 0; c < topology_.cells(); ++c) {

@@ -29,6 +29,7 @@ class CellularArray : public sc_core::sc_module {
 
  public:
   ConvergenceDetector detector;
+  Extremes extremes;
   Sequencer sequencer;
 
  private:

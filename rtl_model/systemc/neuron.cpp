@@ -7,7 +7,7 @@ Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::s
     : sc_module(name),
       accumulator("accumulator", context.array, context.accumulator, context.topology.neurons_per_cell, taps),
       output("output", context.array, context.accumulator), sequencer_(context.sequencer),
-      detector_(context.detector), link_(link), p_(p),
+      detector_(context.detector), extremes_(context.extremes), link_(link), p_(p),
       segment_(Sequencer::first_phase + static_cast<int>(phase)),
       phase_cycles_(context.sequencer.phase_cycles(phase)),
       normalise_cycles_(spec::normalise_cycles(context.array)) {
@@ -35,9 +35,14 @@ void Neuron::on_prepare_done() {
 // Woken once, in the phase's last cycle: the whole row, then the output stage.
 void Neuron::on_phase_done() {
   accumulator.sum_row();
-  output.normalise(accumulator.sum_raw());
+  normalise();
   output.bias_by_r();
   publish();
+}
+
+void Neuron::normalise() {
+  output.normalise(accumulator.sum_raw());
+  extremes_.note(accumulator.sum_raw(), output.drive_raw());
 }
 
 void Neuron::publish() {
@@ -63,7 +68,7 @@ void Neuron::phase_beat(std::uint64_t beat) {
   const std::uint64_t beats = accumulator.beats();
   if (beat == 0) accumulator.begin_sum();
   if (beat < beats) accumulator.sum_beat(beat);
-  if (beat + 1 == beats + normalise_cycles_) output.normalise(accumulator.sum_raw());
+  if (beat + 1 == beats + normalise_cycles_) normalise();
   if (beat == beats + normalise_cycles_) output.bias_by_r();
   if (beat + 1 == phase_cycles_) publish();
 }

@@ -1,6 +1,7 @@
 // One two-part neuron: an input accumulator and an output stage, and the processes that wake them.
 #pragma once
 
+#include "rtl_model/systemc/extremes.h"
 #include "rtl_model/systemc/input_accumulator.h"
 #include "rtl_model/systemc/link.h"
 #include "rtl_model/systemc/output_stage.h"
@@ -15,6 +16,7 @@ struct ArrayContext {
   const spec::NumberFormat accumulator;
   Sequencer& sequencer;
   ConvergenceDetector& detector;
+  Extremes& extremes;
 };
 
 class Neuron : public sc_core::sc_module {
@@ -37,10 +39,12 @@ class Neuron : public sc_core::sc_module {
   void on_clock();
   void prepare_beat(std::uint64_t beat);
   void phase_beat(std::uint64_t beat);
+  void normalise();
   void publish();
 
   Sequencer& sequencer_;
   ConvergenceDetector& detector_;
+  Extremes& extremes_;
   LinkRegister& link_;
   const std::size_t p_;
   const int segment_;

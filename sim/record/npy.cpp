@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <numeric>
 #include <string>
 #include <type_traits>
 
@@ -21,9 +23,9 @@ template <class T> constexpr const char* descriptor() {
   return std::is_same_v<T, double> ? "<f8" : "<i4";
 }
 
-template <class T> std::string header(std::size_t rows, std::size_t a, std::size_t b) {
-  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
-                                 descriptor<T>(), rows, a, b);
+template <class T> std::string header(std::size_t rows, const std::vector<std::size_t>& row_shape) {
+  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                 descriptor<T>(), rows, fmt::join(row_shape, ", "));
   text.resize(header_bytes - prefix_bytes - 1, ' ');
   const char length = static_cast<char>(header_bytes - prefix_bytes);
   return std::string("\x93NUMPY\x01\x00", 8) + length + '\0' + text + '\n';
@@ -51,25 +53,26 @@ std::vector<std::size_t> parse_shape(const std::string& text) {
 } // namespace
 
 template <class T>
-NpyWriter<T>::NpyWriter(const std::filesystem::path& path, std::size_t a, std::size_t b)
-    : file_(path), a_(a), b_(b) {
-  file_.write(header<T>(0, a, b));
+NpyWriter<T>::NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape)
+    : file_(path), row_shape_(row_shape),
+      row_size_(std::accumulate(row_shape.begin(), row_shape.end(), std::size_t{1}, std::multiplies<>())) {
+  file_.write(header<T>(0, row_shape));
 }
 
 template <class T> void NpyWriter<T>::append(const T* row) {
-  file_.write(row, a_ * b_ * sizeof(T));
+  file_.write(row, row_size_ * sizeof(T));
   ++rows_;
 }
 
 template <class T> void NpyWriter<T>::append(const std::vector<T>& row) {
-  if (row.size() != a_ * b_)
-    throw WriteError(fmt::format("{}: a row of {} values where {} x {} belong", file_.path().string(),
-                                 row.size(), a_, b_));
+  if (row.size() != row_size_)
+    throw WriteError(
+        fmt::format("{}: a row of {} values where {} belong", file_.path().string(), row.size(), row_size_));
   append(row.data());
 }
 
 template <class T> void NpyWriter<T>::commit() {
-  file_.patch(0, header<T>(rows_, a_, b_));
+  file_.patch(0, header<T>(rows_, row_shape_));
   file_.commit();
 }
 

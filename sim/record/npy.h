@@ -14,19 +14,20 @@
 
 namespace hopmesh::record {
 
-/// An array of shape [rows, a, b] with T = double (float64) or std::int32_t (int32), little endian, C order.
+/// An array of shape [rows, row_shape...] with T = double (float64) or std::int32_t (int32), little endian, C order.
 /// The number of rows is filled in by commit(), so a run that was stopped early still leaves a right file.
 template <class T> class NpyWriter {
  public:
-  NpyWriter(const std::filesystem::path& path, std::size_t a, std::size_t b);
-  void append(const T* row); ///< a * b values
+  NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape);
+  void append(const T* row); ///< one row
   void append(const std::vector<T>& row);
   void commit();
   std::size_t rows() const { return rows_; }
 
  private:
   OutputFile file_;
-  std::size_t a_, b_, rows_ = 0;
+  const std::vector<std::size_t> row_shape_;
+  std::size_t row_size_, rows_ = 0;
 };
 
 extern template class NpyWriter<double>;

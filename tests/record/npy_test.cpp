@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 TEST(Npy, BytesAreThoseOfTheFormat) {
   const Folder folder;
-  NpyWriter<std::int32_t> file(folder / "a.npy", 1, 2);
+  NpyWriter<std::int32_t> file(folder / "a.npy", {1, 2});
   file.append(std::vector<std::int32_t>{1, -2});
   file.commit();
   std::string dictionary = "{'descr': '<i4', 'fortran_order': False, 'shape': (1, 1, 2), }";
@@ -31,7 +31,7 @@ TEST(Npy, DoublesComeBackBitForBit) {
   using limits = std::numeric_limits<double>;
   const std::vector<double> row{0.1,      -0.0, limits::denorm_min(), limits::max(), limits::infinity(),
                                 1.0 / 3.0};
-  NpyWriter<double> file(folder / "a.npy", 2, 3);
+  NpyWriter<double> file(folder / "a.npy", {2, 3});
   file.append(row);
   file.commit();
   const auto array = read_npy<double>(folder / "a.npy");
@@ -41,7 +41,7 @@ TEST(Npy, DoublesComeBackBitForBit) {
 
 TEST(Npy, RunStoppedEarlyHasTheRowsItGotTo) {
   const Folder folder;
-  NpyWriter<double> file(folder / "a.npy", 4, 3);
+  NpyWriter<double> file(folder / "a.npy", {4, 3});
   for (int step = 0; step < 7; ++step) file.append(std::vector<double>(12, step));
   file.commit(); // the run was interrupted here; 400 steps were planned
   const auto array = read_npy<double>(folder / "a.npy");
@@ -52,13 +52,13 @@ TEST(Npy, RunStoppedEarlyHasTheRowsItGotTo) {
 
 TEST(Npy, WithoutCommitNothingStays) {
   const Folder folder;
-  { NpyWriter<double>(folder / "a.npy", 1, 1).append(std::vector<double>{1}); }
+  { NpyWriter<double>(folder / "a.npy", {1, 1}).append(std::vector<double>{1}); }
   EXPECT_TRUE(folder.empty());
 }
 
 TEST(Npy, SingleRowsAreReadByIndex) {
   const Folder folder;
-  NpyWriter<std::int32_t> file(folder / "a.npy", 2, 2);
+  NpyWriter<std::int32_t> file(folder / "a.npy", {2, 2});
   for (std::int32_t step = 0; step < 1000; ++step) file.append(std::vector<std::int32_t>{step, -step, 7, 8});
   file.commit();
   NpyReader<std::int32_t> reader(folder / "a.npy");
@@ -70,7 +70,7 @@ TEST(Npy, SingleRowsAreReadByIndex) {
 
 TEST(Npy, RowOfWrongLengthIsRefused) {
   const Folder folder;
-  NpyWriter<double> file(folder / "a.npy", 2, 3);
+  NpyWriter<double> file(folder / "a.npy", {2, 3});
   EXPECT_THROW(file.append(std::vector<double>(5)), WriteError);
 }
 
@@ -88,14 +88,14 @@ TEST(Npy, OtherFilesAreRefusedByName) {
   write_file(folder / "text.npy", "not an array");
   EXPECT_THAT(read_error(folder / "text.npy"), HasSubstr("not a NumPy 1.0 array file"));
   EXPECT_THAT(read_error(folder / "missing.npy"), HasSubstr("cannot be opened"));
-  NpyWriter<std::int32_t> integers(folder / "integers.npy", 1, 1);
+  NpyWriter<std::int32_t> integers(folder / "integers.npy", {1, 1});
   integers.commit();
   EXPECT_THAT(read_error(folder / "integers.npy"), HasSubstr("type '<i4', expected '<f8'"));
 }
 
 TEST(Npy, FileCutShortIsRefused) {
   const Folder folder;
-  NpyWriter<double> file(folder / "a.npy", 2, 3);
+  NpyWriter<double> file(folder / "a.npy", {2, 3});
   file.append(std::vector<double>(6));
   file.commit();
   std::filesystem::resize_file(folder / "a.npy", 128 + 6 * 8 - 1);

@@ -71,7 +71,7 @@ function makeChart(parent, run, series, onHover) {
   const times = run.stepTimes.subarray(0, count), values = series.values.subarray(0, count);
   const scale = makeScale(values), card = document.createElement("article");
   card.className = "chart";
-  const head = document.createElement("h3"), name = document.createElement("span"), now = document.createElement("output");
+  const head = document.createElement("h3"), name = document.createElement("span"), now = document.createElement("b");
   name.textContent = NAMES[series.name] || series.name.replace(/_/g, " ");
   const unit = document.createElement("small");
   unit.textContent = [series.unit, scale.log ? "log scale" : ""].filter(Boolean).join(" · ");

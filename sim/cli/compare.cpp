@@ -1,0 +1,63 @@
+// hopmesh compare: levels beside each other.
+#include "sim/study/compare.h"
+
+#include "sim/cli/options.h"
+#include "sim/cli/progress.h"
+
+#include <fmt/format.h>
+
+namespace hopmesh::cli {
+
+namespace {
+
+struct CompareOptions {
+  CommonOptions common;
+  std::vector<std::string> levels{"reference", "systemc"};
+  std::int64_t steps = 0;
+};
+
+int compare(CompareOptions& o) {
+  if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
+  const Prepared p = prepare(o.common);
+  std::stable_partition(o.levels.begin(), o.levels.end(), [](const auto& l) { return l == "reference"; });
+  for (std::size_t k = 1; k < o.levels.size(); ++k)
+    if (o.levels[k] == o.levels[k - 1])
+      throw scene::input_error("", 0, "--levels", o.levels[k] + " twice", "each level once");
+  if (o.levels.size() < 2)
+    throw scene::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
+  const bool check = o.levels[0] == "reference";
+  std::vector<Level> levels;
+  std::vector<study::Contender> contenders;
+  for (const auto& name : o.levels) levels.push_back(make_level(name, p, check, {}, "--levels"));
+  for (auto& level : levels)
+    contenders.push_back({level.name, level.motion.get(), level.array, level.port.get()});
+
+  catch_interrupts();
+  study::Comparison comparison;
+  {
+    const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
+    Progress progress(steps);
+    comparison = study::compare(
+        contenders, *p.mesh, p.inputs.array, steps, [&](const study::StepRow& row) { progress.step(row); },
+        stop_requested);
+  }
+  fmt::print("{}", study::text_of(comparison, o.common.scene, p.inputs.array));
+  if (comparison.outcome == study::Outcome::interrupted) return interrupted;
+  return comparison.difference || comparison.outcome == study::Outcome::diverged ? differs : done;
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<CompareOptions>();
+  CLI::App* verb = program.add_subcommand(
+      "compare", "levels beside each other: bits, cycles, error against the reference");
+  add_common(*verb, o->common);
+  verb->add_option("--levels", o->levels, "two or more of reference, systemc, systemc-clock")->delimiter(',');
+  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(CLI::PositiveNumber);
+  verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,systemc,systemc-clock --steps 10\n"
+               "Exit: 0 fixed levels are equal, 1 they differ or the motion diverged, 2 bad input.");
+  verb->callback([o, &exit_code] { exit_code = compare(*o); });
+}
+
+} // namespace hopmesh::cli

@@ -1,0 +1,49 @@
+// What the verbs have in common: scene, array, overrides, levels; and one function a verb.
+#pragma once
+
+#include "sim/cli/wave.h"
+#include "sim/scene/scene_file.h"
+#include "sim/study/array_motion.h"
+#include "sim/study/reference_motion.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hopmesh::cli {
+
+/// Exit codes of the program.
+enum Exit : int { done = 0, differs = 1, bad_input = 2, interrupted = 130 };
+
+struct CommonOptions {
+  std::string scene, array;
+  std::vector<std::string> overrides;
+};
+
+/// SCENE, --array, --set.
+void add_common(CLI::App& verb, CommonOptions& options);
+
+/// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
+struct Prepared {
+  scene::Inputs inputs;
+  std::unique_ptr<study::BuiltMesh> mesh;
+};
+Prepared prepare(const CommonOptions& options);
+
+/// A level made ready to move a mesh. `array` and `port` are null for the reference.
+struct Level {
+  std::string name;
+  std::unique_ptr<study::ArrayPort> port;
+  std::unique_ptr<study::Motion> motion;
+  study::ArrayMotion* array = nullptr;
+};
+
+/// Level names: reference, systemc, systemc-clock. Throws scene::InputError for any other.
+const std::vector<std::string>& level_names();
+Level make_level(const std::string& name, const Prepared& prepared, bool check, const WaveRequest& wave,
+                 const std::string& flag);
+
+void add_run(CLI::App& program, int& exit_code);
+void add_compare(CLI::App& program, int& exit_code);
+void add_network(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program, int& exit_code);
+
+} // namespace hopmesh::cli

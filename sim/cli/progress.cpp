@@ -1,0 +1,55 @@
+#include "sim/cli/progress.h"
+
+#include <csignal>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace hopmesh::cli {
+
+using Clock = std::chrono::steady_clock;
+
+Progress::Progress(std::uint64_t steps)
+    : steps_(steps), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
+
+Progress::~Progress() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::step(const study::StepRow& row, const study::Motion&) {
+  step(row);
+}
+
+void Progress::step(const study::StepRow& row) {
+  const auto now = Clock::now();
+  if (!shown_ || (now - drawn_ < std::chrono::milliseconds(100) && row.step + 1 < steps_)) return;
+  drawn_ = now;
+  draw(row, now);
+}
+
+void Progress::draw(const study::StepRow& row, Clock::time_point now) {
+  constexpr std::size_t width = 32;
+  const std::uint64_t done = row.step + 1;
+  const double seconds = std::chrono::duration<double>(now - began_).count();
+  const double left = seconds / static_cast<double>(done) * static_cast<double>(steps_ - done);
+  const std::size_t full = width * done / steps_;
+  fmt::print(stderr, "\r\033[K[{:=<{}}{:<{}}] step {} of {}, {} sweeps, strain {:.0f} %, {:.0f} s left", "",
+             full, "", width - full, done, steps_, row.sweeps, 100 * row.max_strain, left);
+  std::fflush(stderr);
+}
+
+std::atomic<bool> stop_requested{false};
+
+namespace {
+
+void on_signal(int) {
+  if (stop_requested.exchange(true)) _exit(130);
+}
+
+} // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+} // namespace hopmesh::cli

@@ -1,0 +1,32 @@
+// A bar on stderr while something long runs; silent when stderr is no terminal.
+#pragma once
+
+#include "sim/study/simulation.h"
+
+#include <chrono>
+
+namespace hopmesh::cli {
+
+class Progress : public study::StepSink {
+ public:
+  explicit Progress(std::uint64_t steps);
+  ~Progress() override;
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void step(const study::StepRow& row, const study::Motion& motion) override;
+  void step(const study::StepRow& row);
+
+ private:
+  void draw(const study::StepRow& row, std::chrono::steady_clock::time_point now);
+
+  const std::uint64_t steps_;
+  const bool shown_;
+  std::chrono::steady_clock::time_point began_, drawn_;
+};
+
+/// Set by Ctrl-C and SIGTERM once catch_interrupts() was called; a second signal ends the program at once.
+extern std::atomic<bool> stop_requested;
+void catch_interrupts();
+
+} // namespace hopmesh::cli

@@ -1,0 +1,99 @@
+// hopmesh run: one simulation, its files and its figures.
+#include "sim/cli/options.h"
+#include "sim/cli/progress.h"
+#include "sim/study/array_info.h"
+#include "sim/study/run_files.h"
+#include "sim/study/run_picture.h"
+
+#include <fmt/format.h>
+
+namespace hopmesh::cli {
+
+namespace {
+
+struct RunOptions {
+  CommonOptions common;
+  std::string level = "systemc", out, wave_window, wave_cells;
+  WaveRequest wave;
+  std::int64_t steps = 0;
+  bool check = true;
+};
+
+std::string shell_word(const std::string& word) {
+  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,") ==
+      std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// The command that repeats a run; where its files go is no part of it.
+std::string command_of(const RunOptions& o) {
+  std::string command = "hopmesh run " + shell_word(o.common.scene) + " --level " + o.level;
+  if (!o.common.array.empty()) command += " --array " + shell_word(o.common.array);
+  for (const auto& override : o.common.overrides) command += " --set " + shell_word(override);
+  if (o.steps > 0) command += " --steps " + std::to_string(o.steps);
+  return command;
+}
+
+WaveRequest wave_of(const RunOptions& o) {
+  WaveRequest wave = o.wave;
+  if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))
+    throw scene::input_error("", 0, o.wave_window.empty() ? "--wave-cells" : "--wave-window", "no --wave",
+                             "--wave FILE.vcd");
+  if (!wave.file.empty() && o.level != "systemc" && o.level != "systemc-clock")
+    throw scene::input_error("", 0, "--wave", "level " + o.level, "level systemc: only it has signals");
+  if (!o.wave_window.empty()) parse_window(o.wave_window, wave);
+  if (!o.wave_cells.empty()) wave.cells = parse_cells(o.wave_cells);
+  return wave;
+}
+
+int run(RunOptions& o) {
+  const WaveRequest wave = wave_of(o);
+  if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
+  const Prepared p = prepare(o.common);
+  if (o.steps > 0) o.common.overrides.pop_back();
+  Level level = make_level(o.level, p, o.check, wave, "--level");
+  const study::RunFacts facts{p.inputs, o.level, level.array != nullptr, command_of(o)};
+  const std::filesystem::path folder = o.out.empty() ? "out/" + p.inputs.scene.name : o.out;
+  study::RunFiles files(folder, facts, *p.mesh, *level.motion);
+
+  study::RunResult result;
+  {
+    catch_interrupts();
+    const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
+    Progress progress(steps);
+    result = study::simulate(*level.motion, steps, {&files, &progress}, stop_requested);
+  }
+  files.finish(result, *level.motion);
+  fmt::print("{}: {}\n", p.inputs.scene.name, result.sentence);
+  fmt::print("{}", study::text_of(study::run_tables(facts, *p.mesh, result, level.motion->ranges())));
+  fmt::print("Results\n  {}\n", folder.string());
+  if (result.outcome == study::Outcome::interrupted) return interrupted;
+  return result.outcome == study::Outcome::diverged ? differs : done;
+}
+
+} // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<RunOptions>();
+  CLI::App* verb = program.add_subcommand("run", "one simulation");
+  add_common(*verb, o->common);
+  verb->add_option("--level", o->level,
+                   "reference | systemc | systemc-clock (every neuron woken at every clock)")
+      ->capture_default_str();
+  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(CLI::PositiveNumber);
+  verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
+  verb->add_flag("!--no-check", o->check, "do not ask the double reference beside every step");
+  verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");
+  verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
+  verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");
+  verb->footer(
+      "Example:\n  hopmesh run two-nodes --steps 5 --out out/first --wave out/first/wave.vcd --wave-window "
+      "0:1\n"
+      "Exit: 0 done, 1 the motion diverged, 2 bad input, 130 interrupted (results so far are complete).");
+  verb->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+} // namespace hopmesh::cli

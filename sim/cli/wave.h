@@ -1,0 +1,51 @@
+// A VCD wave of an array, for a window of steps or cycles and some of its cells.
+#pragma once
+
+#include "rtl_model/systemc/device.h"
+
+#include <optional>
+#include <string>
+
+namespace hopmesh::cli {
+
+/// What --wave, --wave-window and --wave-cells ask for.
+struct WaveRequest {
+  std::string file;                           ///< FILE.vcd; empty: no wave
+  bool in_cycles = false;                     ///< the window counts cycles of all runs so far, not steps
+  std::uint64_t first = 0, last = UINT64_MAX; ///< [first, last)
+  std::vector<std::size_t> cells;             ///< empty: all
+};
+
+/// "3:5" (steps), "1000:2000c" (cycles); either end may be left out. Throws scene::InputError.
+void parse_window(const std::string& text, WaveRequest& request);
+/// "0,4,10-12". Throws scene::InputError.
+std::vector<std::size_t> parse_cells(const std::string& text);
+
+/// Writes beside the final name and renames when closed. Walks the array by clock exactly while it is open.
+class Wave {
+ public:
+  /// Throws scene::InputError for a cell that the array does not have.
+  Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq);
+  ~Wave();
+  Wave(const Wave&) = delete;
+  Wave& operator=(const Wave&) = delete;
+
+  void begin_step(std::uint64_t step);
+  void end_step(std::uint64_t step);
+  /// How long simulation may run before the wave has to be opened or closed; the run at hand began at
+  /// `began`.
+  std::optional<sc_core::sc_time> next_change(sc_core::sc_time began, std::uint64_t cycles_before) const;
+  void change();
+
+ private:
+  void open();
+  void close();
+
+  const WaveRequest request_;
+  systemc::Device& device_;
+  const sc_core::sc_signal<bool>& irq_;
+  sc_core::sc_trace_file* file_ = nullptr;
+  bool done_ = false;
+};
+
+} // namespace hopmesh::cli

@@ -1,0 +1,124 @@
+#include "sim/study/array_info.h"
+
+#include "rtl_model/spec/schedule.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
+    text.insert(static_cast<std::size_t>(at), ",");
+  return text;
+}
+
+namespace {
+
+FigureTable shape(const BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
+  const spec::Topology& t = mesh.topology();
+  std::vector<record::Figure> rows{
+      {"name", array.name},
+      {"nodes", grouped(mesh.nodes())},
+      {"cells (free nodes)", grouped(t.cells())},
+      {"neurons", fmt::format("{} ({} a cell)", grouped(t.neurons()), t.neurons_per_cell)},
+      {"links between cells", grouped(t.links())},
+      {"inputs of a neuron", fmt::format("at most {}", t.most_taps())},
+      {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
+      {"normaliser",
+       std::string(name_of(array.normaliser)) + (array.normaliser == spec::Normaliser::reciprocal
+                                                     ? fmt::format(", {} bits", array.reciprocal_bits)
+                                                     : "")},
+      {"schedule", fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
+      {"host bus", fmt::format("{} bits", array.bus_bits)},
+      {"clock", fmt::format("{} MHz", array.clock_mhz)},
+  };
+  if (array.schedule == spec::Schedule::coloured)
+    rows[8].value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
+  return {"Array", rows};
+}
+
+FigureTable formats(const BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Formats& f = array.formats;
+  const auto accumulator = spec::accumulator_format(array, mesh.topology().most_taps());
+  return {"Formats",
+          {{"weight", f.weight.text()},
+           {"bias", f.bias.text()},
+           {"accumulator", accumulator.text() + (array.exact_accumulator ? " (exact)" : "")},
+           {"drive", f.drive.text()},
+           {"state", f.state.text()},
+           {"link", f.link.text()}}};
+}
+
+FigureTable cycles(const BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
+  const spec::Topology& t = mesh.topology();
+  const spec::CycleModel m = spec::cycle_model(array, t, phases);
+  const auto longest = *std::max_element(m.phase.begin(), m.phase.end());
+  const std::uint64_t load =
+      spec::bus_cycles(array, t.weight_words()) + 2 * spec::bus_cycles(array, t.neurons());
+  return {"Cycles",
+          {{"longest phase", fmt::format("{} = {} accumulate + {} normalise + {} output", longest,
+                                         spec::accumulate_cycles(array, t.most_taps()),
+                                         spec::normalise_cycles(array), spec::output_cycles)},
+           {"sweep", grouped(m.sweep)},
+           {"prepare, once a run", grouped(m.prepare)},
+           {"run of n sweeps", fmt::format("{} + {} n", grouped(1 + m.prepare), grouped(m.sweep))},
+           {"time of a sweep", fmt::format("{:.3g} us", static_cast<double>(m.sweep) / array.clock_mhz)},
+           {"load weights, bias, start", grouped(load) + " on the bus"}}};
+}
+
+FigureTable memory(const BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Formats& f = array.formats;
+  const auto kib = [](double bits) { return fmt::format("{:.1f} KiB", bits / 8192); };
+  const auto accumulator = spec::accumulator_format(array, t.most_taps());
+  const double neurons = static_cast<double>(t.neurons());
+  return {"Memory",
+          {{"weights", kib(static_cast<double>(t.weight_words()) * f.weight.width)},
+           {"biases", kib(neurons * f.bias.width)},
+           {"states and links", kib(neurons * (f.state.width + f.link.width))},
+           {"accumulators", kib(neurons * accumulator.width)}}};
+}
+
+FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
+  const std::size_t pinned = mesh.nodes() - mesh.cells(), n = mesh.components();
+  std::vector<record::Figure> rows{
+      {"pinned nodes", fmt::format("{}: no cell, {} neurons fewer", grouped(pinned), grouped(pinned * n))}};
+  std::size_t to_pinned = 0, among_pinned = 0;
+  for (const auto& s : mesh.mesh().springs) {
+    const int ends = mesh.mesh().pinned[s.node[0]] + mesh.mesh().pinned[s.node[1]];
+    to_pinned += ends == 1;
+    among_pinned += ends == 2;
+  }
+  rows.push_back({"springs to pinned nodes", fmt::format("{}: in the bias, no link", grouped(to_pinned))});
+  if (among_pinned)
+    rows.push_back({"springs between pinned nodes", fmt::format("{}: no link", grouped(among_pinned))});
+  const double kinds[] = {scene.mesh.structural, scene.mesh.shear, scene.mesh.bend};
+  const char* names[] = {"structural springs", "shear springs", "bend springs"};
+  for (int k = 0; k < 3; ++k)
+    if (scene.mesh.grid && kinds[k] == 0) rows.push_back({names[k], "weight 0: not built"});
+  if (n == 2) rows.push_back({"third neuron of a cell", "planar: y never moves"});
+  if (!scene.force.wind) rows.push_back({"wind", "none given"});
+  return {"Left out", rows};
+}
+
+} // namespace
+
+std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
+                                    const spec::ArraySpec& array) {
+  const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);
+  return {shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases), memory(mesh, array),
+          left_out(scene, mesh)};
+}
+
+std::string text_of(const std::vector<FigureTable>& tables) {
+  std::string text;
+  for (const auto& [title, rows] : tables) {
+    text += title + "\n";
+    for (const auto& row : rows) text += fmt::format("  {:<28} {}\n", row.name, row.value);
+  }
+  return text;
+}
+
+} // namespace hopmesh::study

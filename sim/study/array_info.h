@@ -1,0 +1,23 @@
+// What a scene makes of an array, in figures: neurons, links, memory, cycles, and what was left out.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+#include "sim/record/run_view.h"
+#include "sim/scene/scene.h"
+#include "sim/study/built_mesh.h"
+
+namespace hopmesh::study {
+
+using FigureTable = std::pair<std::string, std::vector<record::Figure>>;
+
+/// Tables `Array`, `Formats`, `Cycles`, `Memory`, `Left out`, from the descriptions alone: nothing is built.
+std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
+                                    const spec::ArraySpec& array);
+
+/// The tables as aligned text.
+std::string text_of(const std::vector<FigureTable>& tables);
+
+/// 12345678 -> "12,345,678".
+std::string grouped(std::uint64_t number);
+
+} // namespace hopmesh::study

@@ -1,0 +1,56 @@
+// Levels beside each other: are bits and cycles equal, how far is each from the reference, where do they
+// first part?
+#pragma once
+
+#include "sim/study/explain.h"
+#include "sim/study/simulation.h"
+
+namespace hopmesh::study {
+
+/// A level taking part: `port` and `array` only where it is a fixed one.
+struct Contender {
+  std::string level;
+  Motion* motion = nullptr;
+  ArrayMotion* array = nullptr;
+  ArrayPort* port = nullptr;
+};
+
+/// Distance between the free motions of a level and of the reference after so many steps.
+struct Distance {
+  std::uint64_t steps = 0;
+  double rms = 0, largest = 0; ///< m
+};
+
+struct LevelReport {
+  std::string level;
+  double largest_output_error = 0, rms_output_error = 0, largest_energy_gap = 0, largest_network_error = 0;
+  std::vector<Distance> distances; ///< empty without a reference, and for the reference itself
+  std::uint64_t sweeps = 0, cycles = 0;
+};
+
+struct Difference {
+  std::string level[2];
+  std::uint64_t step = 0;
+  std::uint64_t sweeps[2] = {0, 0}, cycles[2] = {0, 0};
+  std::optional<FirstDifference> where; ///< none: equal outputs, unequal sweeps or cycles
+};
+
+struct Comparison {
+  Outcome outcome = Outcome::finished;
+  std::string sentence;
+  std::uint64_t steps = 0;
+  std::vector<LevelReport> levels;
+  std::size_t pairs = 0;                ///< pairs of fixed levels compared, every code of every step
+  std::optional<Difference> difference; ///< the first; nothing after it was compared
+};
+
+/// Advances all contenders together. `after_step` is told the number of steps done.
+Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, const spec::ArraySpec& array,
+                   std::uint64_t steps, const std::function<void(const StepRow&)>& after_step,
+                   const std::atomic<bool>& stop);
+
+/// The comparison for people, a few lines. `scene` names it in the command that cuts a wave around a
+/// difference.
+std::string text_of(const Comparison& comparison, const std::string& scene, const spec::ArraySpec& array);
+
+} // namespace hopmesh::study

@@ -1,0 +1,31 @@
+// Beside every step of an array: the double reference's answer to the very same step.
+#pragma once
+
+#include "sim/reference/reference.h"
+#include "sim/study/motion.h"
+
+namespace hopmesh::study {
+
+/// The order in which an array's schedule fires, with the reference's numbering (over all nodes).
+reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
+
+class ReferenceCheck {
+ public:
+  ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule);
+
+  /// Before a step: where it starts from. V: the rest state of the step before, [cells * components].
+  void begin(const double* position, const double* velocity, const double* acceleration,
+             const std::vector<double>& V, std::uint64_t step);
+  /// After it: the network that the firmware built and the outputs that the array came to.
+  ReferenceError judge(const hm_network& network) const;
+
+ private:
+  double network_difference(const reference::Network& network, const hm_network& built) const;
+
+  const BuiltMesh& mesh_;
+  const reference::Motion motion_;
+  const reference::Order order_;
+  reference::State state_;
+};
+
+} // namespace hopmesh::study

@@ -1,0 +1,28 @@
+// The reference as a level: the same steps in double, none of the firmware's arithmetic.
+#pragma once
+
+#include "sim/study/motion.h"
+#include "sim/study/reference_check.h"
+
+namespace hopmesh::study {
+
+class ReferenceMotion : public Motion {
+ public:
+  /// Fires in the order of `schedule`, so that its sweeps are comparable with an array's.
+  ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule);
+
+  StepRow advance() override;
+  const std::vector<double>& positions() const override { return position_; }
+  /// The network of the last step; valid after advance().
+  const reference::Step& last_step() const { return last_; }
+
+ private:
+  const BuiltMesh& mesh_;
+  const reference::Motion motion_;
+  const reference::Order order_;
+  reference::State state_;
+  reference::Step last_;
+  std::vector<double> position_;
+};
+
+} // namespace hopmesh::study

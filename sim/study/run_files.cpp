@@ -1,0 +1,161 @@
+#include "sim/study/run_files.h"
+
+#include "sim/record/gltf.h"
+#include "sim/record/report.h"
+#include "sim/study/run_picture.h"
+#include "study_version.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace hopmesh::study {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const std::vector<std::string> columns{
+    "step",       "time",          "sweeps",      "cycles",     "energy",  "kinetic",      "max_strain",
+    "saturated",  "converged",     "max_stretch", "bus_cycles", "clipped", "output_error", "output_error_rms",
+    "energy_gap", "network_error", "hash"};
+
+// Fails before the first step, not after the last: the folder, and room for what will be written there.
+std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts,
+                            const BuiltMesh& mesh) {
+  const std::uint64_t a_step = mesh.nodes() * (24 + (facts.fixed ? 4 * mesh.components() : 0)) + 300;
+  record::check_writable(folder, a_step * static_cast<std::uint64_t>(facts.inputs.scene.motion.steps + 1) +
+                                     mesh.nodes() * 8192 + (4u << 20));
+  return folder;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+const char* name_of(Outcome outcome) {
+  return outcome == Outcome::finished   ? "finished"
+         : outcome == Outcome::diverged ? "diverged"
+                                        : "interrupted";
+}
+
+} // namespace
+
+Totals totals_of(const RunResult& result, const BuiltMesh& mesh) {
+  Totals t;
+  for (const StepRow& row : result.rows) {
+    t.steps += 1;
+    t.sweeps += row.sweeps;
+    t.cycles += row.cycles;
+    t.bus_cycles += row.bus_cycles;
+    t.clipped += row.clipped;
+    t.unconverged += !row.converged;
+    t.worst_strain = std::max(t.worst_strain, row.max_strain);
+    if (!row.error) continue;
+    t.largest_error = std::max(t.largest_error, row.error->largest_output);
+    t.largest_network_error = std::max(t.largest_network_error, row.error->network);
+    t.worst_energy_gap = std::max(t.worst_energy_gap, row.error->energy_gap);
+  }
+  t.updates = t.sweeps * mesh.topology().neurons();
+  t.peak_memory_mb = peak_memory_mb();
+  return t;
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
+                   const Motion& motion)
+    : folder_(ready(folder, facts, mesh)), facts_(facts), mesh_(mesh),
+      positions_(folder / "positions.npy", std::vector<std::size_t>{mesh.nodes(), 3}),
+      table_(folder / "steps.csv", columns) {
+  if (facts.fixed)
+    outputs_.emplace(folder / "outputs_raw.npy", std::vector<std::size_t>{mesh.nodes(), mesh.components()});
+  positions_.append(motion.positions());
+}
+
+void RunFiles::step(const StepRow& row, const Motion& motion) {
+  positions_.append(motion.positions());
+  if (outputs_) outputs_->append(motion.outputs_raw());
+  table_.cell(row.step).cell(row.time).cell(row.sweeps).cell(row.cycles).cell(row.energy).cell(row.kinetic);
+  table_.cell(row.max_strain).cell(row.saturated).cell(row.converged).cell(row.max_stretch);
+  table_.cell(row.bus_cycles).cell(row.clipped);
+  if (row.error)
+    table_.cell(row.error->largest_output)
+        .cell(row.error->rms_output)
+        .cell(row.error->energy_gap)
+        .cell(row.error->network);
+  else
+    table_.cell("").cell("").cell("").cell("");
+  table_.cell(fmt::format("{:016x}", row.hash)).end_row();
+}
+
+void RunFiles::finish(const RunResult& result, const Motion& motion) {
+  positions_.commit();
+  if (outputs_) outputs_->commit();
+  table_.commit();
+  const std::string what = manifest(result);
+  record::write_file(folder_ / "stats.json", statistics(result, motion));
+  record::write_file(folder_ / "manifest.json", what);
+  const auto view = run_picture(facts_, mesh_, result, motion.ranges(), folder_ / "positions.npy", what);
+  record::write_glb(view, folder_ / "mesh.glb");
+  record::write_report(view, folder_ / "report.html");
+}
+
+std::string RunFiles::statistics(const RunResult& result, const Motion& motion) const {
+  const Totals t = totals_of(result, mesh_);
+  const double s = result.wall_seconds;
+  Json json{{"scene", facts_.inputs.scene.name},
+            {"level", facts_.level},
+            {"outcome", name_of(result.outcome)},
+            {"sentence", result.sentence},
+            {"nodes", mesh_.nodes()},
+            {"neurons", mesh_.topology().neurons()},
+            {"steps", t.steps},
+            {"sweeps", t.sweeps},
+            {"steps_stopped_by_max_sweeps", t.unconverged},
+            {"neuron_updates", t.updates},
+            {"wall_seconds", s},
+            {"steps_per_second", s > 0 ? static_cast<double>(t.steps) / s : 0},
+            {"neuron_updates_per_second", s > 0 ? static_cast<double>(t.updates) / s : 0},
+            {"largest_strain", t.worst_strain},
+            {"peak_memory_mb", t.peak_memory_mb}};
+  if (facts_.fixed) {
+    json["simulated_cycles"] = t.cycles;
+    json["bus_cycles"] = t.bus_cycles;
+    json["simulated_cycles_per_second"] = s > 0 ? static_cast<double>(t.cycles) / s : 0;
+    json["clipped"] = t.clipped;
+    json["against_reference"] = {{"largest_output_error", t.largest_error},
+                                 {"largest_energy_gap", t.worst_energy_gap},
+                                 {"largest_network_error", t.largest_network_error}};
+    if (result.rows.empty() || !result.rows.front().error) json["against_reference"] = nullptr;
+    for (const SignalRange& r : motion.ranges())
+      json["ranges"].push_back({{"signal", r.signal},
+                                {"format", r.format.text()},
+                                {"least_raw", r.least},
+                                {"largest_raw", r.largest},
+                                {"least", std::ldexp(double(r.least), -r.format.fraction_bits())},
+                                {"largest", std::ldexp(double(r.largest), -r.format.fraction_bits())}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string RunFiles::manifest(const RunResult& result) const {
+  Json json{{"program", "hopmesh"},
+            {"version", version},
+            {"commit", commit},
+            {"compiler", compiler},
+            {"build_type", build_type},
+            {"command", facts_.command},
+            {"level", facts_.level},
+            {"seed", nullptr}, // nothing in a run is drawn at random
+            {"outcome", name_of(result.outcome)},
+            {"scene", scene::scene_text(facts_.inputs.scene)},
+            {"array", facts_.fixed ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)}};
+  json["step_hashes"] = Json::array();
+  for (const StepRow& row : result.rows) json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
+  return json.dump(2) + "\n";
+}
+
+} // namespace hopmesh::study

@@ -1,0 +1,21 @@
+// From the files of a run to what its pictures need.
+#pragma once
+
+#include "sim/record/run_view.h"
+#include "sim/study/run_files.h"
+
+namespace hopmesh::study {
+
+inline constexpr std::size_t most_frames = 240; ///< shown in the report; glTF takes fewer of them
+
+/// Frames are read back from positions.npy, evenly, first and last included.
+record::RunView run_picture(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
+                            const std::vector<SignalRange>& ranges, const std::filesystem::path& positions,
+                            std::string manifest);
+
+/// "The run", "Accuracy" and "Codes seen": the figures that the end of a run prints.
+std::vector<std::pair<std::string, std::vector<record::Figure>>>
+run_tables(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
+           const std::vector<SignalRange>& ranges);
+
+} // namespace hopmesh::study

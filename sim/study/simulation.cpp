@@ -1,0 +1,53 @@
+#include "sim/study/simulation.h"
+
+#include <chrono>
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+namespace {
+
+// One step; true while the run goes on.
+bool one_step(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks, RunResult& result) {
+  const std::uint64_t step = result.rows.size();
+  try {
+    result.rows.push_back(motion.advance());
+  } catch (const Diverged& why) {
+    result.outcome = Outcome::diverged;
+    result.sentence = fmt::format("The motion diverged in step {}: {}. The {} steps before it are kept.",
+                                  step, why.what(), step);
+    return false;
+  } catch (const Stopped&) {
+    result.outcome = Outcome::interrupted;
+    return false;
+  }
+  const StepRow& row = result.rows.back();
+  for (StepSink* sink : sinks) sink->step(row, motion);
+  if (row.max_stretch < most_stretch) return true;
+  result.outcome = Outcome::diverged;
+  result.sentence = fmt::format("The motion diverged in step {} of {}: a spring is {:.3g} times its length "
+                                "(the limit is {:g}). All steps so far are kept.",
+                                step, steps, row.max_stretch, most_stretch);
+  return false;
+}
+
+} // namespace
+
+RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+                   const std::atomic<bool>& stop) {
+  using Clock = std::chrono::steady_clock;
+  const auto began = Clock::now();
+  RunResult result;
+  result.sentence = fmt::format("All {} steps done.", steps);
+  while (result.rows.size() < steps) {
+    if (stop) result.outcome = Outcome::interrupted;
+    if (stop || !one_step(motion, steps, sinks, result)) break;
+  }
+  if (result.outcome == Outcome::interrupted)
+    result.sentence = fmt::format("Interrupted after {} of {} steps; their results are complete.",
+                                  result.rows.size(), steps);
+  result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  return result;
+}
+
+} // namespace hopmesh::study

@@ -1,0 +1,33 @@
+// The time-step loop: advance, record, watch, until done, diverged or interrupted.
+#pragma once
+
+#include "sim/study/motion.h"
+
+#include <atomic>
+
+namespace hopmesh::study {
+
+/// A spring this many times its rest length ends a run: the motion has left the model.
+inline constexpr double most_stretch = 10.0;
+
+enum class Outcome { finished, interrupted, diverged };
+
+struct RunResult {
+  Outcome outcome = Outcome::finished;
+  std::string sentence; ///< how it ended, for people
+  std::vector<StepRow> rows;
+  double wall_seconds = 0;
+};
+
+/// Receives every good step as it happens.
+class StepSink {
+ public:
+  virtual ~StepSink() = default;
+  virtual void step(const StepRow& row, const Motion& motion) = 0;
+};
+
+/// Advances `motion` by `steps`. Sinks see each step in turn; `stop` is looked at between steps.
+RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+                   const std::atomic<bool>& stop);
+
+} // namespace hopmesh::study
