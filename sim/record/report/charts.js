@@ -11,7 +11,8 @@ function svg(parent, tag, attributes, text) {
   return node;
 }
 
-// Powers of ten where all values are above zero and lie more than three decades apart; round numbers elsewhere.
+// Powers of ten where all values are above zero and lie more than three decades apart, the first small ones of a start
+// from rest left aside; round numbers elsewhere.
 function makeScale(values) {
   const finite = Array.from(values).filter(Number.isFinite);
   let low = Infinity, high = -Infinity;
@@ -20,7 +21,8 @@ function makeScale(values) {
     high = Math.max(high, v);
   }
   if (!finite.length) [low, high] = [0, 1];
-  if (low > 0 && high / low > 1000) return logScale(low, high);
+  const usual = finite.sort((a, b) => a - b)[Math.floor(finite.length * 0.05)];
+  if (low > 0 && high / usual > 1000) return logScale(low, high);
   if (low > 0 && low < 0.6 * high) low = 0; // a bar's worth of honesty: near zero, show zero
   if (low === high) [low, high] = low === 0 ? [0, 1] : [Math.min(0, 2 * low), Math.max(0, 2 * low)];
   const step = niceAbove((high - low) / 4.5);

@@ -113,7 +113,7 @@ function makeView(run, surface) {
 }
 
 function start(run) {
-  const surface = makeSurface(run), camera = makeCamera(surface.bounds), view = makeView(run, surface);
+  const surface = makeSurface(run), camera = makeCamera(sceneBox(run, surface.bounds)), view = makeView(run, surface);
   const look = { strain: false, springs: run.triangles.length === 0, pins: true };
   let player = null, charts = null, frame = 0;
 

@@ -135,4 +135,15 @@ function poleOf(run, bounds) {
   return { upright, ends: [upright ? [low[0], floor, low[2]] : beyond(low, -1), beyond(high, 1)] };
 }
 
+// What the camera looks at: the motion and the pole it hangs from.
+function sceneBox(run, bounds) {
+  const pole = poleOf(run, bounds), low = bounds.low.slice(), high = bounds.high.slice();
+  for (const end of pole ? pole.ends : [])
+    for (const k of [0, 1, 2]) {
+      low[k] = Math.min(low[k], end[k]);
+      high[k] = Math.max(high[k], end[k]);
+    }
+  return { low, high, size: bounds.size };
+}
+
 function floorOf(bounds) { return bounds.low[1] - 0.06 * bounds.size; }
