@@ -71,7 +71,7 @@ int guarded(int argc, char** argv) {
 } // namespace
 
 int sc_main(int argc, char** argv) {
-  return program(argc, argv);
+  return guarded(argc, argv);
 }
 
 int main(int argc, char** argv) {
