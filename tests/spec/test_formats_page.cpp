@@ -1,0 +1,110 @@
+// docs/formats.md says what the oracle does: its tables are read, its pictures are drawn anew and compared.
+#include "tests/support/slow_fixed.h"
+#include "tests/support/staircase.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace hopmesh::tests {
+namespace {
+
+using spec::NumberFormat;
+using spec::Overflow;
+using spec::Rounding;
+
+const std::string docs = std::string(HOPMESH_SOURCE_DIR) + "/docs/";
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The page writes the minus sign as it should be; strtod wants a hyphen.
+std::string plain(std::string cell) {
+  const std::string minus = "−";
+  for (std::size_t at; (at = cell.find(minus)) != std::string::npos;) cell.replace(at, minus.size(), "-");
+  const std::size_t first = cell.find_first_not_of(" `"), last = cell.find_last_not_of(" `");
+  return first == std::string::npos ? "" : cell.substr(first, last - first + 1);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream parts(line);
+  std::string cell;
+  std::getline(parts, cell, '|');
+  while (std::getline(parts, cell, '|')) cells.push_back(plain(cell));
+  return cells;
+}
+
+/// Rows of numbers of the table whose header begins with `corner`; the header first.
+std::vector<std::vector<std::string>> table(const std::string& corner) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream page(read_file(docs + "formats.md"));
+  for (std::string line; std::getline(page, line);) {
+    const auto cells = cells_of(line);
+    if (rows.empty() ? !cells.empty() && cells[0] == corner : !cells.empty()) rows.push_back(cells);
+    if (!rows.empty() && cells.empty()) break;
+  }
+  if (rows.size() > 1) rows.erase(rows.begin() + 1); // the dashes
+  return rows;
+}
+
+TEST(FormatsPage, RoundingTable) {
+  const auto rows = table("value");
+  ASSERT_EQ(rows.size(), 16u);
+  for (std::size_t r = 1; r < rows.size(); ++r)
+    for (std::size_t q = 0; q < spec::rounding_names.size(); ++q) {
+      EXPECT_EQ(rows[0][q + 1], spec::rounding_names[q]);
+      const NumberFormat f{8, 8, static_cast<Rounding>(q), Overflow::sat};
+      EXPECT_EQ(std::stoi(rows[r][q + 1]), quantise_double(std::stod(rows[r][0]), 0, f))
+          << rows[r][0] << f.text();
+    }
+}
+
+TEST(FormatsPage, OverflowTable) {
+  const auto rows = table("number");
+  ASSERT_EQ(rows.size(), 10u);
+  for (std::size_t r = 1; r < rows.size(); ++r)
+    for (std::size_t o = 0; o < spec::overflow_names.size(); ++o) {
+      EXPECT_EQ(rows[0][o + 1], spec::overflow_names[o]);
+      const NumberFormat f{4, 4, Rounding::trn, static_cast<Overflow>(o)};
+      EXPECT_EQ(std::stoi(rows[r][o + 1]), quantise_code(std::stoi(rows[r][0]), 0, f))
+          << rows[r][0] << f.text();
+    }
+}
+
+/// Compares a picture with the tree's; with HOPMESH_DRAW set, writes it instead.
+void expect_picture(const std::string& kind, std::string_view mode, const std::string& drawn) {
+  std::string name(mode);
+  for (char& c : name) c = static_cast<char>(std::tolower(c));
+  const std::string path = docs + "pictures/" + kind + "-" + name + ".svg";
+  if (std::getenv("HOPMESH_DRAW")) std::ofstream(path, std::ios::binary) << drawn;
+  EXPECT_EQ(read_file(path), drawn) << path;
+}
+
+TEST(FormatsPage, RoundingPictures) {
+  for (std::size_t q = 0; q < spec::rounding_names.size(); ++q) {
+    const NumberFormat f{8, 8, static_cast<Rounding>(q), Overflow::sat};
+    expect_picture("rounding", spec::rounding_names[q],
+                   draw_staircase(std::string(spec::rounding_names[q]), 3,
+                                  [&](int quarters) { return quantise_code(quarters, 2, f); }));
+  }
+}
+
+TEST(FormatsPage, OverflowPictures) {
+  for (std::size_t o = 0; o < spec::overflow_names.size(); ++o) {
+    const NumberFormat f{4, 4, Rounding::trn, static_cast<Overflow>(o)};
+    expect_picture("overflow", spec::overflow_names[o],
+                   draw_dots(std::string(spec::overflow_names[o]), 20, 10,
+                             [&](int x) { return quantise_code(x, 0, f); }));
+  }
+}
+
+} // namespace
+} // namespace hopmesh::tests
