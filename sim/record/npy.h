@@ -14,8 +14,9 @@
 
 namespace hopmesh::record {
 
-/// An array of shape [rows, row_shape...] with T = double (float64) or std::int32_t (int32), little endian, C order.
-/// The number of rows is filled in by commit(), so a run that was stopped early still leaves a right file.
+/// An array of shape [rows, row_shape...] with T = double (float64) or std::int32_t (int32), little endian, C
+/// order. The number of rows is filled in by commit(), so a run that was stopped early still leaves a right
+/// file.
 template <class T> class NpyWriter {
  public:
   NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape);

@@ -85,6 +85,19 @@ TEST(Report, PictureIsNotBlank) {
   EXPECT_THAT(html_tag(page), HasSubstr("data-colours=\"many\""));
 }
 
+TEST(Report, PictureOfWebglIsNotBlank) {
+  NEED_BROWSER;
+  if (!three_present()) GTEST_SKIP() << "libjs-three is not installed";
+  const auto page = opened(small_run(), "", R"(
+    hopmesh.frame(6); // draws at once, so that the picture can be read back before it is shown
+    const c = document.querySelector('#view canvas'), gl = c.getContext('webgl'), d = new Uint8Array(c.width * c.height * 4);
+    gl.readPixels(0, 0, c.width, c.height, gl.RGBA, gl.UNSIGNED_BYTE, d);
+    const seen = new Set();
+    for (let i = 0; i < d.length; i += 4) if (d[i + 3]) seen.add(d[i] * 65536 + d[i + 1] * 256 + d[i + 2]);
+    html.dataset.colours = seen.size > 200 ? 'many' : String(seen.size);)");
+  EXPECT_THAT(html_tag(page), HasSubstr("data-colours=\"many\""));
+}
+
 TEST(Report, HoveringAChartMovesTheViewAndTheOtherCharts) {
   NEED_BROWSER;
   const auto page = opened(small_run(), "", R"(
