@@ -53,8 +53,11 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
 
 std::string shipped_folder() {
   std::error_code ignored;
-  for (const char* folder : {HOPMESH_SCENES, HOPMESH_INSTALLED_SCENES})
-    if (fs::is_directory(folder, ignored)) return folder;
+  // Beside an installed program first: an installation may have been moved, or the tree it came from be gone.
+  const fs::path beside =
+      fs::read_symlink("/proc/self/exe", ignored).parent_path() / HOPMESH_SCENES_FROM_PROGRAM;
+  for (const fs::path& folder : {beside, fs::path(HOPMESH_SCENES)})
+    if (fs::is_directory(folder, ignored)) return folder.lexically_normal().string();
   return HOPMESH_INSTALLED_SCENES;
 }
 
