@@ -91,7 +91,7 @@ void InputAccumulator::add(std::int64_t products) {
 }
 
 void InputAccumulator::trace(sc_core::sc_trace_file* file) const {
-  sc_core::sc_trace(file, sum_, std::string(name()) + ".s");
+  sc_core::sc_trace(file, sum_, std::string(name()) + ".s", format_.width);
   sc_core::sc_trace(file, norm_, std::string(name()) + ".norm");
 }
 

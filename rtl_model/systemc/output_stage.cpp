@@ -77,9 +77,9 @@ void OutputStage::load(std::int32_t raw) {
 }
 
 void OutputStage::trace(sc_core::sc_trace_file* file) const {
-  sc_core::sc_trace(file, drive_, std::string(name()) + ".u");
-  sc_core::sc_trace(file, delta_, std::string(name()) + ".delta");
-  sc_core::sc_trace(file, state_, std::string(name()) + ".V");
+  sc_core::sc_trace(file, drive_, std::string(name()) + ".u", drive_format_.width);
+  sc_core::sc_trace(file, delta_, std::string(name()) + ".delta", state_format_.width + 1);
+  sc_core::sc_trace(file, state_, std::string(name()) + ".V", state_format_.width);
 }
 
 } // namespace hopmesh::systemc

@@ -53,51 +53,81 @@ bool is_mark(std::uint64_t step, std::uint64_t steps) {
 
 } // namespace
 
+namespace {
+
+// One step of every contender, or how and why there was none.
+std::vector<StepRow> advance_all(std::vector<Contender>& contenders, Comparison& result) {
+  std::vector<StepRow> rows;
+  try {
+    for (Contender& c : contenders) rows.push_back(c.motion->advance());
+    result.steps += 1;
+    return rows;
+  } catch (const Diverged& why) {
+    result.outcome = Outcome::diverged;
+    result.sentence =
+        fmt::format("{} diverged in step {}: {}.", contenders[rows.size()].level, result.steps, why.what());
+  } catch (const Stopped&) {
+    result.outcome = Outcome::interrupted;
+  }
+  return {};
+}
+
+void note_rows(const std::vector<Contender>& contenders, const std::vector<StepRow>& rows,
+               Comparison& result) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    note(result.levels[k], rows[k]);
+    if (rows[k].max_stretch < most_stretch) continue;
+    result.outcome = Outcome::diverged;
+    result.sentence = fmt::format("{} diverged in step {}: a spring is {:.3g} times its length.",
+                                  contenders[k].level, rows[k].step, rows[k].max_stretch);
+  }
+}
+
+// Every fixed level against the first of them.
+void compare_codes(const std::vector<Contender>& contenders, const std::vector<StepRow>& rows,
+                   const BuiltMesh& mesh, const spec::ArraySpec& array, Comparison& result) {
+  std::size_t first = 0;
+  while (first < contenders.size() && !contenders[first].array) ++first;
+  result.pairs = 0;
+  for (std::size_t k = first + 1; k < contenders.size() && !result.difference; ++k) {
+    if (!contenders[k].array) continue;
+    result.difference = difference(contenders[first], rows[first], contenders[k], rows[k], mesh, array);
+    result.pairs += 1;
+  }
+}
+
+// The reference, where it takes part, comes first.
+void note_distances(const std::vector<Contender>& contenders, Comparison& result) {
+  if (contenders[0].array) return;
+  for (std::size_t k = 1; k < contenders.size(); ++k)
+    result.levels[k].distances.push_back(
+        distance(result.steps, contenders[0].motion->positions(), contenders[k].motion->positions()));
+}
+
+} // namespace
+
 Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, const spec::ArraySpec& array,
                    std::uint64_t steps, const std::function<void(const StepRow&)>& after_step,
                    const std::atomic<bool>& stop) {
   Comparison result;
-  result.sentence = fmt::format("All {} steps done.", steps);
   for (const Contender& c : contenders) result.levels.push_back({c.level, 0, 0, 0, 0, {}, 0, 0});
   while (result.steps < steps && !result.difference && result.outcome == Outcome::finished) {
-    std::vector<StepRow> rows;
-    try {
-      if (stop) throw Stopped();
-      for (Contender& c : contenders) rows.push_back(c.motion->advance());
-    } catch (const Diverged& why) {
-      result.outcome = Outcome::diverged;
-      result.sentence =
-          fmt::format("{} diverged in step {}: {}.", contenders[rows.size()].level, result.steps, why.what());
-      break;
-    } catch (const Stopped&) {
+    if (stop) {
       result.outcome = Outcome::interrupted;
-      result.sentence = fmt::format("Interrupted after {} of {} steps.", result.steps, steps);
       break;
     }
-    result.steps += 1;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      note(result.levels[k], rows[k]);
-      if (rows[k].max_stretch < most_stretch) continue;
-      result.outcome = Outcome::diverged;
-      result.sentence = fmt::format("{} diverged in step {}: a spring is {:.3g} times its length.",
-                                    contenders[k].level, rows[k].step, rows[k].max_stretch);
-    }
-    const Contender* first_fixed = nullptr;
-    std::size_t first_row = 0;
-    result.pairs = 0;
-    for (std::size_t k = 0; k < contenders.size(); ++k) {
-      if (!contenders[k].array) continue;
-      if (first_fixed && !result.difference) {
-        result.difference = difference(*first_fixed, rows[first_row], contenders[k], rows[k], mesh, array);
-        result.pairs += 1;
-      }
-      if (!first_fixed) first_fixed = &contenders[k], first_row = k;
-      if (!contenders[0].array && (is_mark(result.steps, steps) || result.outcome != Outcome::finished))
-        result.levels[k].distances.push_back(
-            distance(result.steps, contenders[0].motion->positions(), contenders[k].motion->positions()));
-    }
+    const std::vector<StepRow> rows = advance_all(contenders, result);
+    if (rows.empty()) break;
+    note_rows(contenders, rows, result);
+    compare_codes(contenders, rows, mesh, array, result);
+    if (is_mark(result.steps, steps) || result.outcome != Outcome::finished)
+      note_distances(contenders, result);
     after_step(rows.back());
   }
+  if (result.outcome == Outcome::interrupted)
+    result.sentence = fmt::format("Interrupted after {} of {} steps.", result.steps, steps);
+  if (result.sentence.empty())
+    result.sentence = result.difference ? "Stopped at the first difference." : "All steps done.";
   return result;
 }
 

@@ -44,7 +44,8 @@ struct Comparison {
   std::optional<Difference> difference; ///< the first; nothing after it was compared
 };
 
-/// Advances all contenders together. `after_step` is told the number of steps done.
+/// Advances all contenders together; a reference must come first. `after_step` is told the number of steps
+/// done.
 Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, const spec::ArraySpec& array,
                    std::uint64_t steps, const std::function<void(const StepRow&)>& after_step,
                    const std::atomic<bool>& stop);
