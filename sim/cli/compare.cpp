@@ -4,6 +4,7 @@
 #include "sim/cli/options.h"
 #include "sim/cli/progress.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
@@ -20,9 +21,9 @@ int compare(CompareOptions& o) {
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   const Prepared p = prepare(o.common);
   std::stable_partition(o.levels.begin(), o.levels.end(), [](const auto& l) { return l == "reference"; });
-  for (std::size_t k = 1; k < o.levels.size(); ++k)
-    if (o.levels[k] == o.levels[k - 1])
-      throw scene::input_error("", 0, "--levels", o.levels[k] + " twice", "each level once");
+  for (const std::string& level : o.levels)
+    if (std::count(o.levels.begin(), o.levels.end(), level) > 1)
+      throw scene::input_error("", 0, "--levels", level + " twice", "each level once");
   if (o.levels.size() < 2)
     throw scene::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
   const bool check = o.levels[0] == "reference";
@@ -54,7 +55,7 @@ void add_compare(CLI::App& program, int& exit_code) {
       "compare", "levels beside each other: bits, cycles, error against the reference");
   add_common(*verb, o->common);
   verb->add_option("--levels", o->levels, "two or more of reference, systemc, systemc-clock")->delimiter(',');
-  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(CLI::PositiveNumber);
+  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,systemc,systemc-clock --steps 10\n"
                "Exit: 0 fixed levels are equal, 1 they differ or the motion diverged, 2 bad input.");
   verb->callback([o, &exit_code] { exit_code = compare(*o); });

@@ -10,17 +10,33 @@ using namespace hopmesh;
 
 namespace {
 
-// A word where a verb should stand is the commonest mistake: say which verb is near.
-std::string usage_error(const CLI::App& program, int argc, char** argv, const std::string& what) {
-  std::vector<std::string> verbs;
-  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
-    verbs.push_back(verb->get_name());
-  const std::string word = argc > 1 ? argv[1] : "";
-  if (word.empty() || word[0] == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
-    return what;
-  return scene::input_error("", 0, "verb", word, fmt::format("{}", fmt::join(verbs, ", ")),
-                            scene::nearest_name(word, verbs))
+std::vector<std::string> flags_of(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  return flags;
+}
+
+std::string not_one_of(const std::string& what, const std::string& word,
+                       const std::vector<std::string>& names) {
+  return scene::input_error("", 0, what, word, fmt::format("{}", fmt::join(names, ", ")),
+                            scene::nearest_name(word, names))
       .what();
+}
+
+// A mistyped verb or flag is the commonest mistake: say which one is near.
+std::string usage_error(const CLI::App& program, const std::string& what) {
+  std::vector<std::string> verbs;
+  const CLI::App* place = &program;
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
+    verbs.push_back(verb->get_name());
+    if (verb->parsed()) place = verb;
+  }
+  const std::vector<std::string> left = program.remaining(true);
+  for (const std::string& word : left)
+    if (word.size() > 1 && word[0] == '-')
+      return not_one_of("flag", word.substr(0, word.find('=')), flags_of(*place));
+  return place == &program && !left.empty() ? not_one_of("verb", left[0], verbs) : what;
 }
 
 std::string one_line(std::string text) {
@@ -49,7 +65,7 @@ int program(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
     fmt::print(stderr, "hopmesh: {} (hopmesh --help tells the usage)\n",
-               one_line(usage_error(app, argc, argv, e.what())));
+               one_line(usage_error(app, e.what())));
   } catch (const scene::InputError& e) {
     fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
   } catch (const record::WriteError& e) {

@@ -70,7 +70,7 @@ void add_network(CLI::App& program, int& exit_code) {
   CLI::App* verb =
       program.add_subcommand("network", "the network of one step in Matrix Market files (reference level)");
   add_common(*verb, o->common);
-  verb->add_option("--step", o->step, "the step, counted from 0")->required()->check(CLI::NonNegativeNumber);
+  verb->add_option("--step", o->step, "the step, counted from 0")->required()->check(whole_number(0));
   verb->add_option("--out", o->out, "folder for W.mtx, bias.mtx, V0.mtx, V.mtx, predicted.npy")->required();
   verb->footer("Example:\n  hopmesh network two-nodes --step 3 --out out/network");
   verb->callback([o, &exit_code] { exit_code = network(*o); });

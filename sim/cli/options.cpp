@@ -4,9 +4,22 @@
 #include "sim/cli/progress.h"
 #include "sim/cli/systemc_port.h"
 
+#include <charconv>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
+
+CLI::Validator whole_number(std::int64_t least) {
+  constexpr std::int64_t most = 1'000'000'000; // as many steps as a scene may have
+  const auto judge = [=](const std::string& text) {
+    std::int64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, number);
+    if (failure == std::errc() && stop == end && number >= least && number <= most) return std::string();
+    return fmt::format("found {}, expected an integer from {} to {}", text, least, most);
+  };
+  return CLI::Validator(judge, "");
+}
 
 void add_common(CLI::App& verb, CommonOptions& options) {
   verb.add_option("SCENE", options.scene, "a scene file, or the name of a shipped scene")->required();

@@ -21,6 +21,9 @@ struct CommonOptions {
 /// SCENE, --array, --set.
 void add_common(CLI::App& verb, CommonOptions& options);
 
+/// A check for counts of steps: an integer from `least` to a billion, refused in words that fit a line.
+CLI::Validator whole_number(std::int64_t least);
+
 /// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
 struct Prepared {
   scene::Inputs inputs;

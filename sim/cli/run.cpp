@@ -83,7 +83,7 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--level", o->level,
                    "reference | systemc | systemc-clock (every neuron woken at every clock)")
       ->capture_default_str();
-  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(CLI::PositiveNumber);
+  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
   verb->add_flag("!--no-check", o->check, "do not ask the double reference beside every step");
   verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");

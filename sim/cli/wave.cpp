@@ -2,12 +2,14 @@
 
 #include "sim/record/output_file.h"
 #include "sim/scene/input_error.h"
+#include "sim/scene/limits.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <regex>
+#include <sysc/tracing/sc_tracing_ids.h>
 
 namespace hopmesh::cli {
 
@@ -30,6 +32,8 @@ std::vector<std::size_t> parse_cells(const std::string& text) {
   std::vector<std::size_t> cells;
   for (auto at = std::sregex_iterator(text.begin(), text.end(), item); at != std::sregex_iterator(); ++at) {
     const std::size_t first = std::stoul((*at)[1]), last = (*at)[2].matched ? std::stoul((*at)[2]) : first;
+    if (first > last || last >= static_cast<std::size_t>(scene::most_nodes))
+      throw scene::input_error("", 0, "--wave-cells", at->str(), "a rising range of cells that exist");
     for (std::size_t c = first; c <= last; ++c) cells.push_back(c);
   }
   std::sort(cells.begin(), cells.end());
@@ -44,6 +48,8 @@ Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signa
     if (c >= cells)
       throw scene::input_error("", 0, "--wave-cells", std::to_string(c),
                                fmt::format("cells below {}", cells));
+  if (std::filesystem::is_directory(request_.file))
+    throw scene::input_error("", 0, "--wave", "the folder " + request_.file, "the name of a file");
   const auto folder = std::filesystem::absolute(request_.file).parent_path();
   record::check_writable(folder, 1 << 20);
   if (request_.in_cycles) device_.walk({request_.first, request_.last});
@@ -51,9 +57,13 @@ Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signa
 
 Wave::~Wave() {
   if (file_) close();
+  if (began_ && !done_)
+    fmt::print(stderr, "hopmesh: {}: no wave, the run ended before the window began\n", request_.file);
 }
 
 void Wave::open() {
+  // SystemC would tell stdout, where results go, which unit of time was set.
+  sc_core::sc_report_handler::set_actions(sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_DO_NOTHING);
   file_ = sc_core::sc_create_vcd_trace_file((request_.file + ".part").c_str());
   file_->set_time_unit(1, sc_core::SC_NS);
   sc_core::sc_trace(file_, irq_, std::string(device_.name()) + ".irq");
@@ -74,6 +84,7 @@ void Wave::close() {
 }
 
 void Wave::begin_step(std::uint64_t step) {
+  began_ = true;
   if (request_.in_cycles || file_ || done_ || step < request_.first || step >= request_.last) return;
   open();
   device_.walk({device_.cells.sequencer.total_cycles(), UINT64_MAX});

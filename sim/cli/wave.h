@@ -45,7 +45,7 @@ class Wave {
   systemc::Device& device_;
   const sc_core::sc_signal<bool>& irq_;
   sc_core::sc_trace_file* file_ = nullptr;
-  bool done_ = false;
+  bool began_ = false, done_ = false;
 };
 
 } // namespace hopmesh::cli
