@@ -93,7 +93,11 @@ void RunFiles::step(const StepRow& row, const Motion& motion) {
 
 void RunFiles::finish(const RunResult& result, const Motion& motion) {
   positions_.commit();
-  if (outputs_) outputs_->commit();
+  std::error_code none; // what an earlier run at a level with codes left here is not of this run
+  if (outputs_)
+    outputs_->commit();
+  else
+    std::filesystem::remove(folder_ / "outputs_raw.npy", none);
   table_.commit();
   const std::string what = manifest(result);
   record::write_file(folder_ / "stats.json", statistics(result, motion));
