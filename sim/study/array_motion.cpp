@@ -98,7 +98,7 @@ StepRow ArrayMotion::advance() {
   row.bus_cycles = bus_cycles() - bus_before;
   for (double V : output_) row.saturated += std::fabs(V) >= 1;
   measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
-  if (check_) row.error = check_->judge(state_.network);
+  if (check_) row.error = check_->judge(state_.network, start_);
   row.hash = hash();
   return row;
 }

@@ -27,25 +27,30 @@ void ReferenceCheck::begin(const double* position, const double* velocity, const
   state_.position = Eigen::Map<const Vector>(position, count);
   state_.velocity = Eigen::Map<const Vector>(velocity, count);
   state_.acceleration = Eigen::Map<const Vector>(acceleration, count);
-  const auto all = mesh_.by_node(V);
-  state_.V = Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
+  state_.V = by_node(V);
   state_.step = step;
 }
 
-ReferenceError ReferenceCheck::judge(const hm_network& built) const {
-  reference::State state = state_;
-  const reference::Step step = reference::advance(mesh_.mesh(), motion_, order_, state);
-  const std::size_t neurons = mesh_.cells() * mesh_.components();
-  const auto all = mesh_.by_node(std::vector<double>(built.output, built.output + neurons));
-  const Eigen::Map<const Vector> V(all.data(), static_cast<Eigen::Index>(all.size()));
-  const Vector& wanted = step.relaxation.V;
+Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
+  const auto all = mesh_.by_node(by_cell);
+  return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start) const {
+  const scene::Mesh& mesh = mesh_.mesh();
+  const Vector predicted = reference::predict(mesh, motion_, state_);
+  const Vector V0 = motion_.expansions == 1 ? reference::expansion_point(mesh, state_) : by_node(start);
+  const reference::Network network = reference::network(mesh, motion_, predicted, V0);
+  const Vector wanted = reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps).V;
+  const std::size_t neurons = start.size();
+  const Vector V = by_node(std::vector<double>(built.output, built.output + neurons));
   ReferenceError error;
   error.largest_output = (V - wanted).cwiseAbs().maxCoeff();
   error.rms_output = std::sqrt((V - wanted).squaredNorm() / static_cast<double>(neurons));
-  const double rest = reference::network_energy(step.network, wanted);
-  const double fall = reference::network_energy(step.network, step.V0) - rest;
-  if (fall > 0) error.energy_gap = (reference::network_energy(step.network, V) - rest) / fall;
-  error.network = network_difference(step.network, built);
+  const double rest = reference::network_energy(network, wanted);
+  const double fall = reference::network_energy(network, V0) - rest;
+  if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
+  error.network = network_difference(network, built);
   return error;
 }
 

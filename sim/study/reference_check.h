@@ -16,10 +16,12 @@ class ReferenceCheck {
   /// Before a step: where it starts from. V: the rest state of the step before, [cells * components].
   void begin(const double* position, const double* velocity, const double* acceleration,
              const std::vector<double>& V, std::uint64_t step);
-  /// After it: the network that the firmware built and the outputs that the array came to.
-  ReferenceError judge(const hm_network& network) const;
+  /// After it: the network that the firmware built about `start` and the outputs that the array came to.
+  /// With several expansions it is the last one that is judged, from the array's own start of it.
+  ReferenceError judge(const hm_network& network, const std::vector<double>& start) const;
 
  private:
+  reference::Vector by_node(const std::vector<double>& by_cell) const;
   double network_difference(const reference::Network& network, const hm_network& built) const;
 
   const BuiltMesh& mesh_;
