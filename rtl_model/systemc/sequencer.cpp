@@ -104,12 +104,13 @@ void Sequencer::on_clock() {
 
 // Rising at the end of every cycle, falling half-way; rests low when nobody walks clock by clock.
 void Sequencer::toggle_clock() {
+  const sc_time high = sc_time::from_value(period_.value() / 2); // a period of odd length is not halved twice
   if (clock_.read()) {
     clock_ = false;
-    if (clocked_) clock_edge_.notify(period_ / 2);
+    if (clocked_) clock_edge_.notify(period_ - high);
   } else {
     clock_ = true;
-    clock_edge_.notify(period_ / 2);
+    clock_edge_.notify(high);
   }
 }
 
