@@ -91,7 +91,7 @@ tlm::tlm_response_status Device::judge(const tlm::tlm_generic_payload& payload, 
     return tlm::TLM_ADDRESS_ERROR_RESPONSE;
   if (payload.is_read()) return tlm::TLM_OK_RESPONSE;
   const bool allowed = place.window == nullptr ? registers_.writable(static_cast<std::uint32_t>(address))
-                                               : place.window->writable && !cells.sequencer.busy();
+                                               : place.window->writable && !busy();
   return allowed ? tlm::TLM_OK_RESPONSE : tlm::TLM_COMMAND_ERROR_RESPONSE;
 }
 
@@ -126,7 +126,7 @@ void Device::transfer(tlm::tlm_generic_payload& payload, const Place& place, con
 unsigned Device::transport_dbg(tlm::tlm_generic_payload& payload) {
   Place place;
   const std::uint64_t address = payload.get_address();
-  if (address % 4 != 0 || !find(address, place)) return 0;
+  if (address % 4 != 0 || payload.get_data_ptr() == nullptr || !find(address, place)) return 0;
   if (!payload.is_read() && !payload.is_write()) return 0;
   const std::uint64_t room = place.window ? place.window->words - place.index : 1;
   const std::uint64_t words = std::min<std::uint64_t>(payload.get_data_length() / 4, room);
@@ -142,7 +142,7 @@ unsigned Device::transport_dbg(tlm::tlm_generic_payload& payload) {
       if (place.window && place.window->writable)
         (this->*place.window->put)(place.index + k, word);
       else if (!place.window && registers_.writable(offset))
-        registers_.write(offset, word);
+        store(offset, word, sc_core::SC_ZERO_TIME);
     }
   }
   return static_cast<unsigned>(4 * words);
@@ -159,19 +159,29 @@ std::uint32_t Device::read_register(std::uint32_t offset) const {
 
 void Device::write_register(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay) {
   if (offset == HM_REG_CONTROL) return control(word, delay);
+  store(offset, word, delay);
+}
+
+void Device::store(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay) {
   registers_.write(offset, word);
   if (offset == HM_REG_IRQ_ENABLE || offset == HM_REG_IRQ_STATUS) irq_changed_.notify(delay);
 }
 
 void Device::control(std::uint32_t word, const sc_core::sc_time& delay) {
   if ((word & (HM_CONTROL_START | HM_CONTROL_RESET)) == 0) return;
-  if (cells.sequencer.busy()) {
+  if (busy()) {
     registers_.set(HM_REG_IRQ_STATUS, registers_.read(HM_REG_IRQ_STATUS) | HM_IRQ_REFUSED);
     irq_changed_.notify(delay);
     return;
   }
   if (word & HM_CONTROL_RESET) reset_array();
   if (word & HM_CONTROL_START) start_run(delay);
+}
+
+// STATUS decides, not the sequencer: that one is idle a delta cycle before STATUS and the counters say so,
+// and a START in between would be reported as done.
+bool Device::busy() const {
+  return (registers_.read(HM_REG_STATUS) & HM_STATUS_BUSY) != 0;
 }
 
 void Device::start_run(const sc_core::sc_time& delay) {

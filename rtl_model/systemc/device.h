@@ -52,7 +52,9 @@ class Device : public sc_core::sc_module {
   void transfer(tlm::tlm_generic_payload& payload, const Place& place, const sc_core::sc_time& delay);
   std::uint32_t read_register(std::uint32_t offset) const;
   void write_register(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay);
+  void store(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay);
   void control(std::uint32_t word, const sc_core::sc_time& delay);
+  bool busy() const;
   void start_run(const sc_core::sc_time& delay);
   void reset_array();
   void set_capabilities();
