@@ -1,0 +1,182 @@
+// How fast the array runs on the 400-node flag: woken by phase, by clock, by clock with a wave, and written
+// with sc_fixed. All in one process and in random turns, so that ratios are fair on a noisy machine; all must
+// give the same codes in the same cycles.
+#include "rtl_model/spec/array_rules.h"
+#include "tests/bench/flag_steps.h"
+#include "tests/bench/sc_fixed_array.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sysc/tracing/sc_tracing_ids.h>
+#include <unistd.h>
+
+namespace hopmesh::bench {
+namespace {
+
+constexpr std::uint32_t sweeps_a_run = 20;
+constexpr int warm_up_steps = 20; ///< after these the flag moves and its networks are no longer special
+
+struct Outcome {
+  std::vector<std::int32_t> outputs;
+  std::uint64_t sweeps = 0, cycles = 0, largest_change = 0;
+  bool operator==(const Outcome& o) const {
+    return outputs == o.outputs && sweeps == o.sweeps && cycles == o.cycles &&
+           largest_change == o.largest_change;
+  }
+};
+
+/// Everything SystemC, made before simulation begins.
+struct Arrays {
+  Arrays()
+      : inputs(scene::read_inputs(HOPMESH_SOURCE_DIR "/sim/scenes/flag-400.toml", "", {})),
+        mesh(inputs.scene), production("production", inputs.array, mesh.topology()),
+        sc_fixed("sc_fixed", inputs.array, mesh.topology()), steps(inputs.scene, mesh, production) {}
+
+  scene::Inputs inputs;
+  study::BuiltMesh mesh;
+  tests::Dut production;
+  ScFixedArray sc_fixed;
+  FlagSteps steps;
+  std::vector<std::int32_t> weights, biases, start; ///< one network of the moving flag
+  Outcome expected;
+
+  std::size_t neurons() const { return mesh.topology().neurons(); }
+
+  /// The network of the last warm-up step, read back from the array that the firmware loaded.
+  void find_network() {
+    steps.begin();
+    for (int k = 0; k < warm_up_steps; ++k) steps.advance();
+    weights = production.read(HM_WINDOW_WEIGHT, mesh.topology().weight_words());
+    biases = production.read(HM_WINDOW_BIAS, neurons());
+    start = steps.start_raw();
+    load_production();
+    run_production();
+    expected = outcome_of_production();
+    sc_fixed.load(weights, biases, start);
+  }
+  void load_production() {
+    production.write(HM_WINDOW_WEIGHT, weights);
+    production.write(HM_WINDOW_BIAS, biases);
+    production.write(HM_WINDOW_OUTPUT, start);
+  }
+  void run_production() {
+    production.start(0, sweeps_a_run);
+    production.run_until_done();
+  }
+  Outcome outcome_of_production() {
+    return {production.read(HM_WINDOW_OUTPUT, neurons()), production.read(HM_REG_SWEEPS),
+            production.read(HM_REG_CYCLES_LO), production.read(HM_REG_LARGEST_CHANGE)};
+  }
+  Outcome outcome_of_sc_fixed() const {
+    return {sc_fixed.outputs_raw(), sc_fixed.sweeps(), sc_fixed.cycles(), sc_fixed.largest_change_raw()};
+  }
+};
+
+void report(benchmark::State& state, const Arrays& a, const Outcome& outcome) {
+  if (!(outcome == a.expected)) state.SkipWithError("other codes, sweeps or cycles than woken by phase");
+  using benchmark::Counter;
+  const auto runs = static_cast<double>(state.iterations());
+  state.counters["updates/s"] =
+      Counter(runs * static_cast<double>(outcome.sweeps * a.neurons()), Counter::kIsRate);
+  state.counters["cycles/s"] = Counter(runs * static_cast<double>(outcome.cycles), Counter::kIsRate);
+}
+
+void run_production(benchmark::State& state, Arrays& a, systemc::Waking waking) {
+  a.load_production();
+  a.production.device.wake(waking);
+  for (auto _ : state) {
+    state.PauseTiming();
+    a.production.write(HM_WINDOW_OUTPUT, a.start);
+    state.ResumeTiming();
+    a.run_production();
+  }
+  report(state, a, a.outcome_of_production());
+}
+
+void by_phase(benchmark::State& state, Arrays& a) {
+  run_production(state, a, systemc::Waking::by_phase);
+}
+
+void by_clock(benchmark::State& state, Arrays& a) {
+  run_production(state, a, systemc::Waking::by_clock);
+}
+
+/// The wave holds every register of every neuron, as `hopmesh run --wave` writes it.
+void by_clock_with_wave(benchmark::State& state, Arrays& a) {
+  const auto name = std::filesystem::temp_directory_path() / ("hopmesh-bench-" + std::to_string(getpid()));
+  auto* file = sc_core::sc_create_vcd_trace_file(name.c_str());
+  file->set_time_unit(1, sc_core::SC_NS);
+  const auto& cells = a.production.device.cells;
+  cells.sequencer.trace(file);
+  for (std::size_t c = 0; c < a.mesh.cells(); ++c) cells.cell(c).trace(file);
+  run_production(state, a, systemc::Waking::by_clock);
+  sc_core::sc_close_vcd_trace_file(file);
+  std::filesystem::remove(name.string() + ".vcd");
+}
+
+void sc_fixed(benchmark::State& state, Arrays& a) {
+  for (auto _ : state) {
+    state.PauseTiming();
+    a.sc_fixed.load(a.weights, a.biases, a.start);
+    state.ResumeTiming();
+    a.sc_fixed.run(0, sweeps_a_run);
+  }
+  report(state, a, a.outcome_of_sc_fixed());
+}
+
+/// All steps of the scene: who takes how much of the processor.
+void parts_of_steps(benchmark::State& state, Arrays& a) {
+  a.production.device.wake(systemc::Waking::by_phase);
+  for (auto _ : state) {
+    a.steps.begin();
+    for (std::int64_t k = 0; k < a.inputs.scene.motion.steps; ++k) a.steps.advance();
+  }
+  const PartSeconds& s = a.steps.seconds();
+  state.counters["array_s"] = s.array;
+  state.counters["bus_s"] = s.bus;
+  state.counters["driver_s"] = s.driver;
+  state.counters["network_and_motion_s"] = s.network_and_motion;
+  state.counters["cycles"] = static_cast<double>(a.steps.cycles());
+}
+
+/// A fixed number of runs a turn: long enough to time, short enough that the turns alternate often.
+void register_all(Arrays& a) {
+  const auto add = [&a](const char* name, void (*body)(benchmark::State&, Arrays&), int runs, int turns) {
+    benchmark::RegisterBenchmark(name, [&a, body](benchmark::State& state) { body(state, a); })
+        ->Iterations(runs)
+        ->Repetitions(turns)
+        ->Unit(benchmark::kMillisecond);
+  };
+  add("flag-400/by phase", by_phase, 60, 9);
+  add("flag-400/by clock", by_clock, 2, 9);
+  add("flag-400/by clock, wave on", by_clock_with_wave, 1, 9);
+  add("flag-400/sc_fixed, a signal per value", sc_fixed, 1, 9);
+  add("flag-400 steps/parts", parts_of_steps, 1, 1);
+}
+
+} // namespace
+} // namespace hopmesh::bench
+
+int sc_main(int argc, char** argv) {
+  sc_core::sc_report_handler::set_actions(sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_DO_NOTHING);
+  hopmesh::bench::Arrays arrays;
+  hopmesh::tests::Dut::elaborate();
+  arrays.find_network();
+  hopmesh::bench::register_all(arrays);
+  std::vector<char*> words(argv, argv + argc);
+  std::string turns = "--benchmark_enable_random_interleaving=true";
+  words.insert(words.begin() + 1, turns.data());
+  int count = static_cast<int>(words.size());
+  benchmark::Initialize(&count, words.data());
+  if (benchmark::ReportUnrecognizedArguments(count, words.data())) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
+
+int main(int argc, char** argv) {
+  setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+  return sc_core::sc_elab_and_sim(argc, argv);
+}

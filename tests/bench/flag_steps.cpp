@@ -1,0 +1,107 @@
+#include "tests/bench/flag_steps.h"
+
+#include "sim/study/array_motion.h"
+
+#include <ctime>
+
+namespace hopmesh::bench {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+FlagSteps::FlagSteps(const scene::Scene& scene, const study::BuiltMesh& mesh, tests::Dut& dut)
+    : mesh_(mesh), dut_(dut), motion_(study::motion_of(scene)), buffer_(4096) {
+  bus_.context = this;
+  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
+    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_READ_COMMAND, address, word, 1);
+  };
+  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
+    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address, &word, 1);
+  };
+  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
+    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_READ_COMMAND, address, words, count);
+  };
+  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address,
+                                                const_cast<std::uint32_t*>(words), count);
+  };
+  bus_.wait = [](void* c) { return static_cast<FlagSteps*>(c)->wait(); };
+}
+
+void FlagSteps::begin() {
+  const std::size_t neurons = mesh_.cells() * mesh_.components();
+  position_.clear();
+  for (const auto& x : mesh_.mesh().position) position_.insert(position_.end(), x.begin(), x.end());
+  velocity_.assign(position_.size(), 0.0);
+  acceleration_ = predicted_ = velocity_;
+  energy_change_.assign(mesh_.cells(), 0.0);
+  start_.assign(neurons, 0.0);
+  bias_ = output_ = start_;
+  weight_.assign(hm_weight_count(&mesh_.firmware()), 0.0);
+  state_ = hm_state{position_.data(),
+                    velocity_.data(),
+                    acceleration_.data(),
+                    predicted_.data(),
+                    energy_change_.data(),
+                    start_.data(),
+                    {weight_.data(), bias_.data(), output_.data()},
+                    0};
+  sweeps_ = cycles_ = 0;
+  if (hm_driver_open(&driver_, &bus_, &mesh_.firmware(), buffer_.data(),
+                     static_cast<std::uint32_t>(buffer_.size())) != HM_OK)
+    throw std::runtime_error("the driver refuses the device");
+  seconds_ = {};
+}
+
+void FlagSteps::advance() {
+  const hm_solver solver{this, &FlagSteps::relax};
+  const PartSeconds before = seconds_;
+  const double began = processor_seconds();
+  hm_step_result result;
+  if (hm_step(&mesh_.firmware(), &motion_, &solver, &state_, &result) != HM_OK)
+    throw std::runtime_error("the firmware could not do a step");
+  const double relaxed =
+      seconds_.array - before.array + seconds_.bus - before.bus + seconds_.driver - before.driver;
+  seconds_.network_and_motion += processor_seconds() - began - relaxed;
+  sweeps_ += result.sweeps;
+  cycles_ += result.cycles;
+}
+
+int FlagSteps::relax(void* self, const hm_mesh* mesh, hm_network* network, double threshold,
+                     std::uint32_t max_sweeps, hm_relaxation* result) {
+  auto& steps = *static_cast<FlagSteps*>(self);
+  const PartSeconds before = steps.seconds_;
+  const double began = processor_seconds();
+  const int error = hm_driver_relax(&steps.driver_, mesh, network, threshold, max_sweeps, result);
+  const double elsewhere = steps.seconds_.array - before.array + steps.seconds_.bus - before.bus;
+  steps.seconds_.driver += processor_seconds() - began - elsewhere;
+  return error;
+}
+
+int FlagSteps::transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words,
+                        std::uint32_t count) {
+  const double began = processor_seconds();
+  const auto response = dut_.transfer(command, address, words, 4 * count);
+  seconds_.bus += processor_seconds() - began;
+  return response == tlm::TLM_OK_RESPONSE ? HM_OK : HM_ERROR_BUS;
+}
+
+int FlagSteps::wait() {
+  const double began = processor_seconds();
+  dut_.run_until_done();
+  seconds_.array += processor_seconds() - began;
+  return HM_OK;
+}
+
+// Exact: V is a multiple of the state's last place.
+std::vector<std::int32_t> FlagSteps::start_raw() const {
+  int clipped = 0;
+  std::vector<std::int32_t> codes;
+  for (double v : start_) codes.push_back(hm_quantise(v, 0, &driver_.state, &clipped));
+  return codes;
+}
+
+} // namespace hopmesh::bench

@@ -1,0 +1,55 @@
+// The scene that benchmarks run, stepped by the firmware on a device, with the time of every part of the way
+// taken.
+#pragma once
+
+#include "firmware/integrator.h"
+#include "sim/scene/scene_file.h"
+#include "sim/study/built_mesh.h"
+#include "tests/support/dut.h"
+
+namespace hopmesh::bench {
+
+/// Seconds of processor time since the process began: a busy neighbour disturbs it less than the wall clock.
+double processor_seconds();
+
+/// Processor seconds by part. The driver's is what hm_driver_relax takes beside bus and array.
+struct PartSeconds {
+  double array = 0, bus = 0, driver = 0, network_and_motion = 0;
+};
+
+/// The way of the data without study and record: integrator, driver, bus, device.
+class FlagSteps {
+ public:
+  FlagSteps(const scene::Scene& scene, const study::BuiltMesh& mesh, tests::Dut& dut);
+  FlagSteps(const FlagSteps&) = delete;
+  FlagSteps& operator=(const FlagSteps&) = delete;
+
+  /// Steps from rest, from the scene's start on.
+  void begin();
+  void advance();
+
+  std::vector<std::int32_t> start_raw() const; ///< V before the last step's relaxation, as raw codes
+  const PartSeconds& seconds() const { return seconds_; }
+  std::uint64_t sweeps() const { return sweeps_; }
+  std::uint64_t cycles() const { return cycles_; }
+
+ private:
+  int transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words, std::uint32_t count);
+  int wait();
+  static int relax(void* self, const hm_mesh* mesh, hm_network* network, double threshold,
+                   std::uint32_t max_sweeps, hm_relaxation* result);
+
+  const study::BuiltMesh& mesh_;
+  tests::Dut& dut_;
+  const hm_motion motion_;
+  hm_bus bus_{};
+  hm_driver driver_{};
+  hm_state state_{};
+  std::vector<double> position_, velocity_, acceleration_, predicted_, energy_change_, start_, weight_, bias_,
+      output_;
+  std::vector<std::uint32_t> buffer_;
+  PartSeconds seconds_;
+  std::uint64_t sweeps_ = 0, cycles_ = 0;
+};
+
+} // namespace hopmesh::bench

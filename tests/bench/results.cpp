@@ -1,0 +1,58 @@
+#include "tests/bench/results.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace hopmesh::bench {
+
+double Samples::median() const {
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t n = sorted.size();
+  return n % 2 ? sorted[n / 2] : (sorted[n / 2 - 1] + sorted[n / 2]) / 2;
+}
+
+double Samples::least() const {
+  return *std::min_element(values.begin(), values.end());
+}
+
+double Samples::largest() const {
+  return *std::max_element(values.begin(), values.end());
+}
+
+// Google Benchmark appends its settings to a name: "/iterations:1/repeats:9" and the like.
+void Results::read(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error("cannot read " + file);
+  const auto json = nlohmann::json::parse(stream);
+  for (const auto& entry : json.at("benchmarks")) {
+    if (entry.at("run_type") != "iteration") continue;
+    const std::string full = entry.at("name"), name = full.substr(0, full.find("/iterations:"));
+    if (entry.value("error_occurred", false))
+      errors_.push_back(name + ": " + entry.value("error_message", "failed"));
+    for (const auto& [counter, value] : entry.items())
+      if (value.is_number()) rows_.push_back({name, counter, value.get<double>()});
+  }
+}
+
+std::vector<std::string> Results::names(const std::string& prefix) const {
+  std::vector<std::string> found;
+  for (const Row& row : rows_) {
+    if (row.name.compare(0, prefix.size() + 1, prefix + "/") != 0) continue;
+    const std::string rest = row.name.substr(prefix.size() + 1);
+    if (std::find(found.begin(), found.end(), rest) == found.end()) found.push_back(rest);
+  }
+  return found;
+}
+
+Samples Results::samples(const std::string& name, const std::string& counter) const {
+  Samples samples;
+  for (const Row& row : rows_)
+    if (row.name == name && row.counter == counter) samples.values.push_back(row.value);
+  if (samples.values.empty()) throw std::runtime_error("no " + counter + " of benchmark " + name);
+  return samples;
+}
+
+} // namespace hopmesh::bench
