@@ -1,0 +1,105 @@
+// Arrows between rooms go one way: each #include "..." line is held against a table.
+#include "tests/house/tree.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
+
+namespace hopmesh::tests {
+namespace {
+
+using Rooms = std::set<std::string>;
+
+// Who may include whom, beside itself. Engine, systemc and reference never meet: they share the facts (spec),
+// never the arithmetic, so that their agreement is evidence. Nobody includes cli; tests may include anything.
+const std::map<std::string, Rooms> allowed = {
+    {"firmware", {}},
+    {"rtl_model/spec", {}},
+    {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
+    {"sim/scene", {"rtl_model/spec"}},
+    {"sim/reference", {"sim/scene"}},
+    {"sim/rivals", {"sim/scene"}},
+    {"sim/engine", {"rtl_model/spec"}},
+    {"sim/record", {}},
+    {"sim/study", {"rtl_model/spec", "firmware", "sim/scene", "sim/reference", "sim/record"}},
+    {"sim/cli",
+     {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/scene", "sim/reference", "sim/rivals",
+      "sim/engine", "sim/record", "sim/study"}},
+};
+
+// Which rooms may know a library from outside. Firmware knows none but <stdint.h>.
+const std::vector<std::pair<std::regex, Rooms>> libraries = {
+    {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/cli"}},
+    {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals"}},
+    {std::regex("CLI/.*"), {"sim/cli"}},
+    {std::regex("toml.*"), {"sim/scene"}},
+    {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/record"}},
+};
+
+// Written by CMake when the build is configured.
+const std::set<std::string> generated = {"study_version.h"};
+
+std::string room_of(const std::string& path) {
+  static const std::regex shape("(firmware|(?:rtl_model|sim)/[^/]+|tests)/.*");
+  std::smatch part;
+  return std::regex_match(path, part, shape) ? part[1].str() : "";
+}
+
+bool may_include(const std::string& room, const std::string& included) {
+  const std::string other = room_of(included);
+  if (room == "tests") return true;
+  const Rooms& others = allowed.at(room);
+  return other == room || others.count(other) || others.count(included);
+}
+
+bool may_know(const std::string& room, const std::string& header) {
+  if (room == "tests") return true;
+  if (room == "firmware") return header == "stdint.h";
+  for (const auto& [name, rooms] : libraries)
+    if (std::regex_match(header, name)) return rooms.count(room) > 0;
+  return true;
+}
+
+void judge_include(const TreeFile& file, const std::string& included) {
+  if (generated.count(included)) return;
+  EXPECT_FALSE(room_of(included).empty())
+      << file.path << ": \"" << included << "\" is not written from the root of the tree";
+  EXPECT_TRUE(may_include(room_of(file.path), included)) << file.path << " includes " << included;
+}
+
+void judge_line(const TreeFile& file, const std::string& line) {
+  static const std::regex own("\\s*#\\s*include\\s*\"([^\"]+)\".*");
+  static const std::regex outside("\\s*#\\s*include\\s*<([^>]+)>.*");
+  std::smatch part;
+  if (std::regex_match(line, part, own)) judge_include(file, part[1]);
+  if (std::regex_match(line, part, outside)) {
+    EXPECT_TRUE(may_know(room_of(file.path), part[1])) << file.path << " includes <" << part[1] << ">";
+  }
+}
+
+TEST(Arrows, everyRoomIsInTheTable) {
+  for (const TreeFile& file : tree_files({".h", ".c", ".cpp"}))
+    EXPECT_TRUE(room_of(file.path) == "tests" || allowed.count(room_of(file.path))) << file.path;
+}
+
+TEST(Arrows, everyIncludeFollowsTheTable) {
+  for (const TreeFile& file : tree_files({".h", ".c", ".cpp"})) {
+    if (room_of(file.path) != "tests" && !allowed.count(room_of(file.path))) continue;
+    for (const std::string& line : lines_of(file.text)) judge_line(file, line);
+  }
+}
+
+TEST(Arrows, theTableRefusesWhatItShould) {
+  EXPECT_FALSE(may_include("rtl_model/systemc", "firmware/driver.h"));
+  EXPECT_TRUE(may_include("rtl_model/systemc", "firmware/registers.h"));
+  EXPECT_FALSE(may_include("sim/reference", "rtl_model/systemc/device.h"));
+  EXPECT_FALSE(may_include("sim/study", "sim/cli/options.h"));
+  EXPECT_FALSE(may_include("sim/record", "tests/support/dut.h"));
+  EXPECT_FALSE(may_know("sim/study", "systemc"));
+  EXPECT_FALSE(may_know("firmware", "stdlib.h"));
+  EXPECT_TRUE(may_know("sim/study", "vector"));
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,146 @@
+// What README and docs promise: links lead somewhere, commands run, every flag of the program is tried or
+// told.
+#include "tests/house/tree.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <regex>
+
+namespace hopmesh::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- links
+
+TEST(Readme, linksLeadSomewhere) {
+  const std::regex link("\\]\\(([^)#]+)(#[^)]*)?\\)");
+  for (const TreeFile& page : tree_files({".md"}))
+    for (std::sregex_iterator at(page.text.begin(), page.text.end(), link), end; at != end; ++at) {
+      const std::string target = (*at)[1];
+      if (target.find("://") != std::string::npos) continue;
+      EXPECT_TRUE(fs::exists(fs::path(HOPMESH_SOURCE_DIR) / fs::path(page.path).parent_path() / target))
+          << page.path << ": " << target;
+    }
+}
+
+// ---- flags
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex shape(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), shape), end; at != end; ++at)
+    found.push_back((*at)[1]);
+  return found;
+}
+
+std::string all_words_of_users() {
+  std::string words = text_of("README.md");
+  for (const TreeFile& file : tree_files({".cpp", ".h"}))
+    if (starts_with(file.path, "tests/cli/")) words += file.text;
+  return words;
+}
+
+std::vector<std::string> verbs() {
+  const std::string help = run(HOPMESH_PROGRAM " --help").text;
+  return matches(help.substr(std::min(help.find("Subcommands:"), help.size())), "\n  ([a-z]+) ");
+}
+
+std::string help_of(const std::string& verb) {
+  return run(HOPMESH_PROGRAM " " + verb + " --help").text;
+}
+
+TEST(Readme, everyFlagIsTriedOrTold) {
+  ASSERT_GE(verbs().size(), 4u) << "no verbs found: is the test blind?";
+  const std::string words = all_words_of_users();
+  for (const std::string& verb : verbs())
+    for (const std::string& flag : matches(help_of(verb), "\n  (?:-\\w,)?(--[\\w-]+)"))
+      EXPECT_TRUE(std::regex_search(words, std::regex(flag + "(?![\\w-])")))
+          << "hopmesh " << verb << " " << flag << ": in no test of tests/cli and not in README.md";
+}
+
+// ---- commands
+
+// Lines of ```sh blocks, comments off and continued lines joined.
+std::vector<std::string> shell_commands(const std::string& page) {
+  std::vector<std::string> commands;
+  std::string whole;
+  bool inside = false;
+  for (std::string line : lines_of(page)) {
+    if (starts_with(line, "```")) {
+      inside = line == "```sh";
+      continue;
+    }
+    if (!inside) continue;
+    line = std::regex_replace(line, std::regex("(^|\\s)#.*"), "");
+    const bool goes_on = !line.empty() && line.back() == '\\';
+    whole += goes_on ? line.substr(0, line.size() - 1) : line;
+    if (goes_on) continue;
+    if (whole.find_first_not_of(' ') != std::string::npos) commands.push_back(whole);
+    whole.clear();
+  }
+  return commands;
+}
+
+bool runs_the_program(const std::string& command) {
+  return starts_with(command, "build/hopmesh ") || starts_with(command, "hopmesh ");
+}
+
+// The same command with three steps: whether it works shows in the first.
+std::string shortened(const std::string& command) {
+  static const std::regex long_verb("hopmesh (run|compare) ");
+  if (command.find("--steps") != std::string::npos) return command;
+  return std::regex_replace(command, long_verb, "hopmesh $1 --steps 3 ");
+}
+
+// A folder that looks like the tree after ./demo.
+class Commands : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/hopmesh-readme-XXXXXX";
+    ASSERT_NE(mkdtemp(name), nullptr);
+    folder_ = name;
+    for (const char* room : {"docs", "firmware", "rtl_model", "sim", "tests"})
+      fs::create_symlink(fs::path(HOPMESH_SOURCE_DIR) / room, folder_ / room);
+    fs::create_directory(folder_ / "build");
+    fs::create_symlink(HOPMESH_PROGRAM, folder_ / "build/hopmesh");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void expect_to_run(const std::string& command) {
+    const Answer answer =
+        run("cd " + folder_.string() + " && export PATH=$PWD/build:$PATH && " + shortened(command));
+    EXPECT_EQ(answer.exit_code, 0) << command << "\n" << answer.text;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Commands, ofTheReadmeRun) {
+  int tried = 0;
+  for (const std::string& command : shell_commands(text_of("README.md")))
+    if (runs_the_program(command)) ++tried, expect_to_run(command);
+  EXPECT_GT(tried, 0) << "no command found: is the test blind?";
+}
+
+TEST_F(Commands, ofTheHelpRun) {
+  for (const std::string& verb : verbs()) {
+    const std::vector<std::string> examples = matches(help_of(verb), "\n  (hopmesh [^\n]+)");
+    EXPECT_FALSE(examples.empty()) << verb;
+    for (const std::string& command : examples) expect_to_run(command);
+  }
+}
+
+// Whatever else the README asks a reader to type is a file that can be run.
+TEST(Readme, scriptsExist) {
+  for (const std::string& command : shell_commands(text_of("README.md"))) {
+    const std::string word = command.substr(0, command.find(' '));
+    if (!starts_with(word, "./")) continue;
+    const fs::path script = fs::path(HOPMESH_SOURCE_DIR) / word;
+    EXPECT_TRUE(fs::exists(script)) << command;
+  }
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,51 @@
+// Sizes of files, sources that no build knows, paths and addresses that belong to one machine.
+#include "tests/house/tree.h"
+
+#include <gtest/gtest.h>
+#include <regex>
+
+namespace hopmesh::tests {
+namespace {
+
+bool is_header(const TreeFile& file) {
+  return file.path.size() > 2 && file.path.substr(file.path.size() - 2) == ".h";
+}
+
+TEST(Tree, filesCanBeReadInOneSitting) {
+  for (const TreeFile& file : tree_files({".h", ".c", ".cpp"})) {
+    const std::size_t lines = lines_of(file.text).size();
+    const std::size_t aim = is_header(file) ? 150 : 300, limit = is_header(file) ? 200 : 400;
+    EXPECT_LT(lines, limit) << file.path << " does more than one thing?";
+    if (lines > aim) std::printf("%s: %zu lines, %zu is the aim\n", file.path.c_str(), lines, aim);
+  }
+}
+
+// Projects of their own, and benchmarks, which a build may leave out.
+bool built_elsewhere(const std::string& path) {
+  return starts_with(path, "tests/example/") || starts_with(path, "tests/bench/");
+}
+
+TEST(Tree, everySourceIsBuilt) {
+  std::string compiled;
+  for (const std::string& line : lines_of(run("cat " HOPMESH_BINARY_DIR "/compile_commands.json").text))
+    if (line.find("\"file\":") != std::string::npos) compiled += line + "\n";
+  for (const TreeFile& file : tree_files({".c", ".cpp"}))
+    EXPECT_TRUE(built_elsewhere(file.path) || compiled.find("/" + file.path + "\"") != std::string::npos)
+        << file.path << " stands in no CMakeLists.txt";
+}
+
+TEST(Tree, nothingBelongsToOneMachine) {
+  const std::regex path("(^|[^\\w.])/(work|home)/"), host("https?://(deb|security|registry|proxy|files)\\.");
+  for (const TreeFile& file : tree_files({".h", ".c", ".cpp", ".md", ".txt", ".toml", ".json", ".cmake",
+                                          ".in", ".js", ".css", ".html", ""})) {
+    std::size_t number = 0;
+    for (const std::string& line : lines_of(file.text)) {
+      ++number;
+      EXPECT_FALSE(std::regex_search(line.substr(0, 500), path)) << file.path << ":" << number;
+      EXPECT_FALSE(std::regex_search(line.substr(0, 500), host)) << file.path << ":" << number;
+    }
+  }
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,67 @@
+#include "tests/house/tree.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+
+namespace hopmesh::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = HOPMESH_SOURCE_DIR;
+
+bool ends_as(const fs::path& path, const std::vector<std::string>& endings) {
+  return endings.empty() || std::find(endings.begin(), endings.end(), path.extension()) != endings.end();
+}
+
+void take(const fs::directory_entry& entry, const std::vector<std::string>& endings,
+          std::vector<TreeFile>& files) {
+  const std::string path = entry.path().lexically_relative(root).string();
+  if (entry.is_regular_file() && ends_as(entry.path(), endings)) files.push_back({path, text_of(path)});
+}
+
+} // namespace
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(root / path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<TreeFile> tree_files(const std::vector<std::string>& endings) {
+  std::vector<TreeFile> files;
+  for (const auto& entry : fs::directory_iterator(root)) take(entry, endings, files);
+  for (const char* room : {".ci", "docs", "firmware", "rtl_model", "sim", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) take(entry, endings, files);
+  std::sort(files.begin(), files.end(), [](const TreeFile& a, const TreeFile& b) { return a.path < b.path; });
+  return files;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+Answer run(const std::string& command) {
+  Answer answer{"", -1};
+  FILE* pipe = popen(("(" + command + ") 2>&1 </dev/null").c_str(), "r");
+  char part[4096];
+  for (std::size_t n; (n = fread(part, 1, sizeof part, pipe)) > 0;) answer.text.append(part, n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
+  return answer;
+}
+
+} // namespace hopmesh::tests

@@ -1,0 +1,31 @@
+// The source tree as text, for tests that read it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hopmesh::tests {
+
+/// A file of the tree; `path` is from the root.
+struct TreeFile {
+  std::string path, text;
+};
+
+/// The files of the rooms and of the root, build and result folders left out, in order of their paths. With
+/// endings (".h"), only those.
+std::vector<TreeFile> tree_files(const std::vector<std::string>& endings = {});
+
+/// The text of one file; empty where there is none.
+std::string text_of(const std::string& path);
+
+std::vector<std::string> lines_of(const std::string& text);
+bool starts_with(const std::string& text, const std::string& start);
+
+/// What a shell command prints on stdout and stderr, and how it ended.
+struct Answer {
+  std::string text;
+  int exit_code;
+};
+Answer run(const std::string& command);
+
+} // namespace hopmesh::tests
