@@ -55,7 +55,8 @@ int Sequencer::next_segment() const {
 }
 
 bool Sequencer::walks(std::uint64_t cycles) const {
-  return total_cycles_ < walked_.last && total_cycles_ + cycles > walked_.first;
+  return walked_.first < walked_.last && total_cycles_ < walked_.last &&
+         total_cycles_ + cycles > walked_.first;
 }
 
 // What a segment leaves behind in its last cycle.
