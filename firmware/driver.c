@@ -35,24 +35,23 @@ static int fraction_bits(const hm_format* f) {
   return f->width - f->integer_bits;
 }
 
-/* Is 1 to be added to `below`, the largest integer not above x, where x - below = rest in [0, 1)? */
-static int rounds_up(int64_t below, double rest, int rounding) {
-  const int negative = below < 0; /* for rest > 0 the sign of x is the sign of below */
-  if (rest == 0) return 0;
-  if (rounding == HM_TRN) return 0;
-  if (rounding == HM_TRN_ZERO) return negative;
+/* Is 1 to be added to `whole`, the magnitude's whole part, where `rest` in [0, 1) is left? Magnitudes,
+   because |x| - whole is exact, while x - floor(x) is not for a small negative x. */
+static int rounds_away(int64_t whole, double rest, int negative, int rounding) {
+  if (rest == 0 || rounding == HM_TRN_ZERO) return 0;
+  if (rounding == HM_TRN) return negative;
   if (rest != 0.5) return rest > 0.5;
   switch (rounding) { /* a tie */
   case HM_RND:
-    return 1;
-  case HM_RND_ZERO:
+    return !negative;
+  case HM_RND_MIN_INF:
     return negative;
   case HM_RND_INF:
-    return !negative;
+    return 1;
   case HM_RND_CONV:
-    return (int)(below & 1);
+    return (int)(whole & 1);
   default:
-    return 0; /* HM_RND_MIN_INF */
+    return 0; /* HM_RND_ZERO */
   }
 }
 
@@ -67,13 +66,18 @@ static int64_t bring_into_range(int64_t code, const hm_format* f) {
 
 /* Code of a value already counted in the format's last places. */
 static int32_t code_of(double x, const hm_format* format, int* clipped) {
-  const double far = 4611686018427387904.0; /* 2^62: beyond it every format is long full */
-  if (magnitude(x) > far) x = x < 0 ? -far : far;
-  int64_t below = (int64_t)x;
-  if ((double)below > x) below -= 1;
-  const int64_t code = below + rounds_up(below, x - (double)below, format->rounding);
-  const int64_t kept = bring_into_range(code, format);
-  if (kept != code) *clipped = 1;
+  const double far = 4611686018427387904.0,
+               block = 4294967296.0; /* 2^62: every format is full; 2^32: the widest */
+  const int negative = x<0, beyond = magnitude(x)> far;
+  double size = magnitude(x);
+  if (beyond && format->overflow == HM_WRAP) /* only the low bits count; none are left beyond 2^85 */
+    size = size < far * 8388608.0 ? size - (double)(int64_t)(size / block) * block : 0;
+  else if (beyond)
+    size = far;
+  const int64_t whole = (int64_t)size;
+  const int64_t away = whole + rounds_away(whole, size - (double)whole, negative, format->rounding);
+  const int64_t code = negative ? -away : away, kept = bring_into_range(code, format);
+  if (kept != code || beyond) *clipped = 1;
   return (int32_t)kept;
 }
 
@@ -85,7 +89,7 @@ int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipp
 static int room(double largest, const hm_format* f) {
   const double limit = (double)most(f) / power_of_two(fraction_bits(f));
   int shift = 0;
-  while (largest * 2 <= limit && shift < 1000) largest *= 2, ++shift;
+  while (largest * 2 <= limit && shift < 960) largest *= 2, ++shift;
   while (largest > limit && shift > -1000) largest /= 2, --shift;
   return shift;
 }
@@ -252,6 +256,7 @@ static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* net
 static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
   TRY(write_register(d, HM_REG_THRESHOLD, (uint32_t)whole_units(threshold, fraction_bits(&d->state))));
   TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
+  TRY(write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
   TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
   TRY(d->bus->wait(d->bus->context));
   return write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);

@@ -37,7 +37,8 @@ int hm_driver_open(hm_driver* driver, const hm_bus* bus, const hm_mesh* mesh, ui
 int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped);
 
 /* Relaxes network->output from where it is until no output moves by more than `threshold`, or max_sweeps.
-   HM_OK, or an error of bus.h; on an error network->output is as it was. */
+   HM_OK, or an error of bus.h; on an error network->output is as it was, but for one while
+   it is being read back (HM_ERROR_BUS then leaves it partly read). */
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
                     uint32_t max_sweeps, hm_relaxation* result);
 

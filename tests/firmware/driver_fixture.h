@@ -78,6 +78,7 @@ class DriverTest : public testing::Test {
     expect_bursts(true, HM_WINDOW_OUTPUT, codes(mesh.output, 0, array.state));
     bus.expect_write(HM_REG_THRESHOLD, threshold_raw);
     bus.expect_write(HM_REG_MAX_SWEEPS, max_sweeps);
+    bus.expect_write(HM_REG_IRQ_STATUS, HM_IRQ_DONE); // left over from a run that nobody waited for
     bus.expect_write(HM_REG_CONTROL, HM_CONTROL_START);
     bus.expect_wait();
     bus.expect_write(HM_REG_IRQ_STATUS, HM_IRQ_DONE);

