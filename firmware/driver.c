@@ -9,16 +9,6 @@
     if (error_ != HM_OK) return error_;                                                                      \
   } while (0)
 
-/* ---- numbers --------------------------------------------------------------------------------------------
- */
-
-static double power_of_two(int exponent) {
-  double value = 1;
-  for (; exponent > 0; --exponent) value *= 2;
-  for (; exponent < 0; ++exponent) value /= 2;
-  return value;
-}
-
 static double magnitude(double x) {
   return x < 0 ? -x : x;
 }
@@ -27,80 +17,12 @@ static int is_finite(double x) {
   return x - x == 0;
 }
 
-static int64_t most(const hm_format* f) {
-  return ((int64_t)1 << (f->width - 1)) - 1;
-}
-
-static int fraction_bits(const hm_format* f) {
-  return f->width - f->integer_bits;
-}
-
-/* Is 1 to be added to `whole`, the magnitude's whole part, where `rest` in [0, 1) is left? Magnitudes,
-   because |x| - whole is exact, while x - floor(x) is not for a small negative x. */
-static int rounds_away(int64_t whole, double rest, int negative, int rounding) {
-  if (rest == 0 || rounding == HM_TRN_ZERO) return 0;
-  if (rounding == HM_TRN) return negative;
-  if (rest != 0.5) return rest > 0.5;
-  switch (rounding) { /* a tie */
-  case HM_RND:
-    return !negative;
-  case HM_RND_MIN_INF:
-    return negative;
-  case HM_RND_INF:
-    return 1;
-  case HM_RND_CONV:
-    return (int)(whole & 1);
-  default:
-    return 0; /* HM_RND_ZERO */
-  }
-}
-
-static int64_t bring_into_range(int64_t code, const hm_format* f) {
-  const int64_t high = most(f), low = f->overflow == HM_SAT_SYM ? -high : -high - 1;
-  if (code >= low && code <= high) return code;
-  if (f->overflow == HM_SAT_ZERO) return 0;
-  if (f->overflow != HM_WRAP) return code > high ? high : low;
-  const uint64_t sign = (uint64_t)1 << (f->width - 1), kept = (uint64_t)code & (2 * sign - 1);
-  return (int64_t)(kept ^ sign) - (int64_t)sign;
-}
-
-/* Code of a value already counted in the format's last places. */
-static int32_t code_of(double x, const hm_format* format, int* clipped) {
-  const double far = 4611686018427387904.0,
-               block = 4294967296.0; /* 2^62: every format is full; 2^32: the widest */
-  const int negative = x<0, beyond = magnitude(x)> far;
-  double size = magnitude(x);
-  if (beyond && format->overflow == HM_WRAP) /* only the low bits count; none are left beyond 2^85 */
-    size = size < far * 8388608.0 ? size - (double)(int64_t)(size / block) * block : 0;
-  else if (beyond)
-    size = far;
-  const int64_t whole = (int64_t)size;
-  const int64_t away = whole + rounds_away(whole, size - (double)whole, negative, format->rounding);
-  const int64_t code = negative ? -away : away, kept = bring_into_range(code, format);
-  if (kept != code || beyond) *clipped = 1;
-  return (int32_t)kept;
-}
-
-int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
-  return code_of(value * power_of_two(shift + fraction_bits(format)), format, clipped);
-}
-
-/* The largest power of two by which a value of this size can be multiplied and still fit. */
-static int room(double largest, const hm_format* f) {
-  const double limit = (double)most(f) / power_of_two(fraction_bits(f));
-  int shift = 0;
-  while (largest * 2 <= limit && shift < 960) largest *= 2, ++shift;
-  while (largest > limit && shift > -1000) largest /= 2, --shift;
-  return shift;
-}
-
 static int32_t whole_units(double threshold, int fraction) {
-  const double units = threshold * power_of_two(fraction);
+  const double units = threshold * hm_power_of_two(fraction);
   return units >= 2147483647.0 ? INT32_MAX : (int32_t)units;
 }
 
-/* ---- what stands behind the bus --------------------------------------------------------------------------
- */
+/* ---- what stands behind the bus ---- */
 
 static int read_register(const hm_driver* d, uint32_t offset, uint32_t* word) {
   return d->bus->read(d->bus->context, offset, word);
@@ -158,8 +80,7 @@ int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_
   return write_register(d, HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
 }
 
-/* ---- loading a network -----------------------------------------------------------------------------------
- */
+/* ---- loading a network ---- */
 
 /* Words on their way into a window, sent whenever the buffer is full. */
 typedef struct stream {
@@ -170,7 +91,7 @@ typedef struct stream {
 } stream;
 
 static stream open_stream(hm_driver* d, uint32_t address, const hm_format* format, int shift) {
-  return (stream){d, address, 0, format, power_of_two(shift + fraction_bits(format))};
+  return (stream){d, address, 0, format, hm_power_of_two(shift + hm_fraction_bits(format))};
 }
 
 static int flush(stream* s) {
@@ -184,7 +105,7 @@ static int flush(stream* s) {
 
 static int put(stream* s, double value) {
   int clipped = 0;
-  s->driver->buffer[s->waiting++] = (uint32_t)code_of(value * s->scale, s->format, &clipped);
+  s->driver->buffer[s->waiting++] = (uint32_t)hm_code(value * s->scale, s->format, &clipped);
   s->driver->clipped += (uint32_t)clipped;
   return s->waiting == s->driver->buffer_words ? flush(s) : HM_OK;
 }
@@ -207,9 +128,9 @@ static int block_exponent(const hm_driver* d, const hm_mesh* mesh, const hm_netw
   const double w = largest_of(network->weight, hm_weight_count(mesh));
   const double b = largest_of(network->bias, mesh->cells * mesh->components);
   if (w == 0 && b == 0) return 0;
-  if (w == 0) return room(b, &d->bias);
-  if (b == 0) return room(w, &d->weight);
-  const int for_weights = room(w, &d->weight), for_biases = room(b, &d->bias);
+  if (w == 0) return hm_room(b, &d->bias);
+  if (b == 0) return hm_room(w, &d->weight);
+  const int for_weights = hm_room(w, &d->weight), for_biases = hm_room(b, &d->bias);
   return for_weights < for_biases ? for_weights : for_biases;
 }
 
@@ -250,11 +171,10 @@ static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* net
   return flush(&outputs);
 }
 
-/* ---- one relaxation --------------------------------------------------------------------------------------
- */
+/* ---- one relaxation ---- */
 
 static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
-  TRY(write_register(d, HM_REG_THRESHOLD, (uint32_t)whole_units(threshold, fraction_bits(&d->state))));
+  TRY(write_register(d, HM_REG_THRESHOLD, (uint32_t)whole_units(threshold, hm_fraction_bits(&d->state))));
   TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
   TRY(write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
   TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
@@ -276,7 +196,7 @@ static int read_counters(const hm_driver* d, hm_relaxation* result) {
 
 static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* network) {
   const uint32_t count = mesh->cells * mesh->components;
-  const double last_place = 1 / power_of_two(fraction_bits(&d->state));
+  const double last_place = 1 / hm_power_of_two(hm_fraction_bits(&d->state));
   for (uint32_t done = 0; done < count;) {
     const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
     TRY(d->bus->read_burst(d->bus->context, HM_WINDOW_OUTPUT + 4 * done, d->buffer, part));

@@ -5,14 +5,11 @@
 
 #include "firmware/bus.h"
 #include "firmware/network.h"
+#include "firmware/quantise.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct hm_format {
-  int width, integer_bits, rounding, overflow;
-} hm_format;
 
 typedef struct hm_driver {
   const hm_bus* bus;
@@ -32,9 +29,6 @@ typedef struct hm_relaxation {
    word or more. HM_OK, or HM_ERROR_ID, _MESH, _BUS, _SPACE. */
 int hm_driver_open(hm_driver* driver, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
                    uint32_t buffer_words);
-
-/* Raw code of `value` * 2^shift in `format`, by the format's rounding and overflow (SystemC's meaning). */
-int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped);
 
 /* Relaxes network->output from where it is until no output moves by more than `threshold`, or max_sweeps.
    HM_OK, or an error of bus.h; on an error network->output is as it was, but for one while

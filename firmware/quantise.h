@@ -1,0 +1,36 @@
+/* From a double to a raw code: the firmware's own rounding and overflow, with SystemC's meaning
+ * (docs/formats.md). */
+#ifndef HOPMESH_FIRMWARE_QUANTISE_H
+#define HOPMESH_FIRMWARE_QUANTISE_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* fixed<W,I,Q,O>; the modes as firmware/registers.h numbers them. */
+typedef struct hm_format {
+  int width, integer_bits, rounding, overflow;
+} hm_format;
+
+int hm_fraction_bits(const hm_format* format);
+
+/* Exact, for exponents of normal doubles. */
+double hm_power_of_two(int exponent);
+
+/* Raw code of a value already counted in the format's last places; sets *clipped if it did not fit, else
+ * leaves it. */
+int32_t hm_code(double counted, const hm_format* format, int* clipped);
+
+/* Raw code of value * 2^shift. */
+int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped);
+
+/* The largest shift for which `largest` * 2^shift still fits the format. */
+int hm_room(double largest, const hm_format* format);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
