@@ -1,0 +1,53 @@
+// What every test of the program stands on: a folder of its own, and command lines run in it.
+#pragma once
+
+#include "tests/cli/program.h"
+#include "tests/cli/results.h"
+
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace hopmesh::tests {
+
+class Cli : public ::testing::Test {
+ protected:
+  Cli() {
+    std::string name = (std::filesystem::temp_directory_path() / "hopmesh-cli-XXXXXX").string();
+    around.folder = ::mkdtemp(name.data()) ? name : "";
+  }
+  ~Cli() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(around.folder, ignored);
+  }
+
+  std::filesystem::path at(const std::string& name) const { return around.folder / name; }
+
+  /// The program with the words of a line: run("info flag-400").
+  Finished hopmesh(const std::string& line) const { return run_program(words_of(line), around); }
+
+  /// The same where nothing may go wrong: exit 0 and silence on stderr.
+  Finished good(const std::string& line) const {
+    const Finished f = hopmesh(line);
+    EXPECT_EQ(f.exit_code, 0) << line << '\n' << f.err << f.out;
+    EXPECT_EQ(f.err, "") << line;
+    return f;
+  }
+
+  /// A run into `out`; returns the folder.
+  std::filesystem::path results_of(const std::string& line, const std::string& out) const {
+    good("run " + line + " --out " + out);
+    return at(out);
+  }
+
+  /// The same bits: arrays, table and hashes of two results folders.
+  static void expect_same_bits(const std::filesystem::path& a, const std::filesystem::path& b) {
+    for (const char* name : {"positions.npy", "outputs_raw.npy", "steps.csv"})
+      EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
+    EXPECT_EQ(read_json(a / "manifest.json")["step_hashes"], read_json(b / "manifest.json")["step_hashes"]);
+  }
+
+  Surroundings around;
+};
+
+} // namespace hopmesh::tests

@@ -1,0 +1,166 @@
+// docs/scene.md, array.md and results.md against the program: keys, defaults, presets, files, columns, flags.
+#include "tests/cli/cli_test.h"
+
+#include <regex>
+#include <set>
+
+namespace hopmesh::tests {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CliDocs : public Cli {
+ protected:
+  static std::string page(const std::string& name) { return content_of(HOPMESH_SOURCE_DIR "/docs/" + name); }
+
+  /// Rows of all tables, or of those under a heading; cells without the blanks around them.
+  static std::vector<std::vector<std::string>> rows_of(const std::string& text,
+                                                       const std::string& heading = "") {
+    std::vector<std::vector<std::string>> rows;
+    bool inside = heading.empty();
+    for (const std::string& line : lines_of(text)) {
+      if (line.rfind("## ", 0) == 0) inside = heading.empty() || line == "## " + heading;
+      if (!inside || line[0] != '|') continue;
+      rows.emplace_back();
+      for (std::string cell : split(line.substr(1, line.size() - 2), '|')) {
+        cell.erase(0, cell.find_first_not_of(' '));
+        cell.erase(cell.find_last_not_of(' ') + 1);
+        rows.back().push_back(cell);
+      }
+    }
+    return rows;
+  }
+
+  /// Everything in `backticks` in the first cell of the rows under a heading, in order.
+  static std::vector<std::string> named_in(const std::string& text, const std::string& heading) {
+    std::vector<std::string> names;
+    static const std::regex code("`([^`]*)`");
+    for (const auto& row : rows_of(text, heading))
+      for (std::sregex_iterator at(row[0].begin(), row[0].end(), code), end; at != end; ++at)
+        names.push_back((*at)[1]);
+    return names;
+  }
+
+  /// Keys with their full paths, and values as written, of TOML that the program prints.
+  static std::map<std::string, std::string> keys_of(const std::string& toml) {
+    std::map<std::string, std::string> keys;
+    std::string table;
+    static const std::regex inner(R"((\w+) = ([^,}]+?)[ ,}])");
+    for (const std::string& line : lines_of(toml)) {
+      if (line.empty() || line[0] == '#') continue;
+      if (line[0] == '[') {
+        table = line.substr(1, line.size() - 2) + '.';
+        continue;
+      }
+      const auto equals = line.find(" = ");
+      const std::string key = table + line.substr(0, equals), value = line.substr(equals + 3);
+      if (value[0] != '{') keys[key] = value;
+      for (std::sregex_iterator at(value.begin(), value.end(), inner), end; value[0] == '{' && at != end;
+           ++at)
+        keys[key + '.' + (*at)[1].str()] = (*at)[2];
+    }
+    return keys;
+  }
+
+  std::pair<std::map<std::string, std::string>, std::map<std::string, std::string>>
+  scene_and_array(const std::string& line) const {
+    const std::string toml = good("info --toml " + line).out;
+    const auto cut = toml.find("\n# array\n");
+    return {keys_of(toml.substr(0, cut)), keys_of(toml.substr(cut))};
+  }
+
+  /// The default of a key as a page tells it.
+  static std::string default_in(const std::string& text, const std::string& key) {
+    for (const auto& row : rows_of(text, "Keys"))
+      if (row[0] == '`' + key + '`') return row.at(3);
+    return "no row";
+  }
+};
+
+TEST_F(CliDocs, EveryKeyOfASceneIsOnItsPageWithItsDefault) {
+  write_text(at("s.toml"), "mesh.grid = {}\n");
+  std::filesystem::copy(HOPMESH_SOURCE_DIR "/tests/scene/good/tent.obj", at("tent.obj"));
+  write_text(at("f.toml"), "mesh.file = \"tent.obj\"\nforce.wind = [0, 0, 0]\n");
+  const std::string text = page("scene.md");
+  for (const auto& [key, value] : scene_and_array("s.toml").first)
+    EXPECT_EQ(default_in(text, key), key == "name" ? "the file's name" : '`' + value + '`') << key;
+  for (const auto& [key, value] : scene_and_array("f.toml").first)
+    EXPECT_EQ(default_in(text, key), key == "name"                               ? "the file's name"
+                                     : key == "mesh.file" || key == "force.wind" ? "none"
+                                                                                 : '`' + value + '`')
+        << key;
+}
+
+TEST_F(CliDocs, EveryKeyOfAnArrayIsOnItsPageWithItsDefault) {
+  const std::string text = page("array.md");
+  for (const auto& [key, value] : scene_and_array("two-nodes").second) {
+    if (key == "name") continue;
+    EXPECT_EQ(default_in(text, key), '`' + value + '`') << key;
+  }
+  EXPECT_EQ(default_in(text, "preset"), "`\"guarded\"`");
+}
+
+TEST_F(CliDocs, EveryKeyOnAPageIsOneOfTheProgram) {
+  for (const char* name : {"scene.md", "array.md"})
+    for (const std::string& key : named_in(page(name), "Keys")) {
+      if (key == "preset") continue;                                        // of array files alone
+      const Finished f = hopmesh("info two-nodes --set " + key + "=[[1]]"); // no key has such a value
+      EXPECT_EQ(f.exit_code, 2) << key;
+      EXPECT_THAT(f.err, HasSubstr(key)) << key;
+      EXPECT_EQ(f.err.find("unknown key"), std::string::npos) << f.err;
+    }
+}
+
+TEST_F(CliDocs, PresetsAreWhatTheArrayPageSays) {
+  const auto rows = rows_of(page("array.md"), "Presets");
+  const auto plain = scene_and_array("two-nodes").second;
+  for (std::size_t column = 1; column <= 4; ++column) {
+    const std::string preset = split(rows[0].at(column), '`')[1];
+    auto expected = plain;
+    expected["name"] = '"' + preset + '"';
+    for (std::size_t k = 2; k < rows.size() && rows[k].size() == 5; ++k)
+      expected[split(rows[k][0], '`')[1]] = split(rows[k].at(column), '`')[1];
+    EXPECT_EQ(scene_and_array("two-nodes --array " + preset).second, expected) << preset;
+  }
+  EXPECT_THAT(hopmesh("info two-nodes --array none").err,
+              HasSubstr("\"guarded\", \"descent\", \"prescaled\" or \"byte\""));
+}
+
+TEST_F(CliDocs, EveryShippedSceneIsOnTheScenePage) {
+  const auto named = named_in(page("scene.md"), "Shipped scenes");
+  std::set<std::string> files;
+  for (const std::string& file : names_in(HOPMESH_SOURCE_DIR "/sim/scenes"))
+    files.insert(std::filesystem::path(file).stem());
+  EXPECT_EQ(std::set<std::string>(named.begin(), named.end()), files);
+}
+
+TEST_F(CliDocs, ExamplesOfScenesAndArraysAreGood) {
+  static const std::regex block("```toml\n([^`]*)```");
+  std::smatch scene, array;
+  const std::string of_scene = page("scene.md"), of_array = page("array.md");
+  ASSERT_TRUE(std::regex_search(of_scene, scene, block) && std::regex_search(of_array, array, block));
+  write_text(at("s.toml"), scene[1]);
+  write_text(at("a.toml"), array[1]);
+  EXPECT_EQ(fault_of_results(results_of("s.toml --array a.toml --steps 3", "r"), 3), "");
+}
+
+TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
+  const auto folder = results_of("two-nodes --steps 1", "r");
+  const std::string text = page("results.md");
+  for (const std::string& name : names_in(folder)) EXPECT_THAT(text, HasSubstr("| `" + name + "` |"));
+  EXPECT_EQ(named_in(text, "steps.csv"), read_table(folder / "steps.csv").header);
+  const auto expect_keys = [&](const nlohmann::json& json, const std::string& heading) {
+    const auto named = named_in(text, heading);
+    std::set<std::string> keys;
+    for (const auto& item : json.items()) keys.insert(item.key());
+    EXPECT_EQ(std::set<std::string>(named.begin(), named.end()), keys) << heading;
+  };
+  const auto stats = read_json(folder / "stats.json");
+  expect_keys(stats, "stats.json");
+  expect_keys(read_json(folder / "manifest.json"), "manifest.json");
+  for (const auto& inner : {stats["against_reference"], stats["ranges"][0]})
+    for (const auto& item : inner.items()) EXPECT_THAT(text, HasSubstr('`' + item.key() + '`'));
+}
+
+} // namespace
+} // namespace hopmesh::tests

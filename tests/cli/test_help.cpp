@@ -1,0 +1,68 @@
+// --help, --version, and the promise that every example in a help text runs.
+#include "tests/cli/cli_test.h"
+
+#include <regex>
+
+namespace hopmesh::tests {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CliHelp : public Cli {
+ protected:
+  /// The command behind "Example:", without the program's name.
+  static std::string example_in(const std::string& help) {
+    static const std::regex shape(R"(Example:\n  hopmesh ([^\n]+))");
+    std::smatch part;
+    return std::regex_search(help, part, shape) ? part[1].str() : "";
+  }
+
+  std::vector<std::string> verbs() const {
+    std::vector<std::string> names;
+    static const std::regex verb(R"(\n  ([a-z]+) {3,})");
+    const std::string help = good("--help").out, list = help.substr(help.find("Subcommands:"));
+    for (std::sregex_iterator at(list.begin(), list.end(), verb), end; at != end; ++at)
+      names.push_back((*at)[1]);
+    return names;
+  }
+};
+
+TEST_F(CliHelp, NamesEveryVerb) {
+  for (const char* verb : {"run", "compare", "network", "info"})
+    EXPECT_THAT(verbs(), ::testing::Contains(verb));
+}
+
+TEST_F(CliHelp, OfTheProgramHasAnExampleThatRuns) {
+  const std::string example = example_in(good("--help").out);
+  ASSERT_EQ(example, "run flag-400 --out out/flag-400");
+  good(example + " --steps 2"); // two steps of its 400: the rest is time
+  EXPECT_EQ(fault_of_results(at("out/flag-400"), 2), "");
+}
+
+TEST_F(CliHelp, OfEveryVerbHasAnExampleThatRuns) {
+  for (const std::string& verb : verbs()) {
+    const std::string example = example_in(good(verb + " --help").out);
+    ASSERT_EQ(example.rfind(verb + ' ', 0), 0u) << verb << ": " << example;
+    EXPECT_NE(good(example).out, "") << example;
+  }
+}
+
+TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
+  const auto expect_flags = [this](const std::string& verb, const std::vector<std::string>& flags) {
+    const std::string help = good(verb + " --help").out;
+    for (const std::string& flag : flags) EXPECT_THAT(help, HasSubstr("--" + flag)) << verb;
+    for (const char* flag : {"--array", "--set", "SCENE"}) EXPECT_THAT(help, HasSubstr(flag)) << verb;
+  };
+  expect_flags("run", {"level", "steps", "out", "no-check", "wave", "wave-window", "wave-cells"});
+  expect_flags("compare", {"levels", "steps"});
+  expect_flags("network", {"step", "out"});
+  expect_flags("info", {"toml"});
+}
+
+TEST_F(CliHelp, VersionNamesVersionCommitAndCompiler) {
+  EXPECT_THAT(good("--version").out,
+              ::testing::MatchesRegex("hopmesh [0-9]+\\.[0-9]+\\.[0-9]+ \\(.+, .+, .+\\)\n"));
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,107 @@
+// Every mistake in a command: exit 2, nothing on stdout, one line on stderr that says what was found and what
+// was expected, and no file left.
+#include "tests/cli/cli_test.h"
+
+namespace hopmesh::tests {
+namespace {
+
+struct Mistake {
+  const char* name;
+  const char* line;
+  std::vector<const char*> says;
+};
+
+class CliMistake : public Cli, public ::testing::WithParamInterface<Mistake> {};
+
+TEST_P(CliMistake, IsRefusedInOneLine) {
+  const Finished f = hopmesh(GetParam().line);
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_EQ(f.out, "");
+  EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+  EXPECT_LT(f.err.size(), 400u) << f.err;
+  EXPECT_EQ(f.err.rfind("hopmesh: ", 0), 0u) << f.err;
+  for (const char* words : GetParam().says) EXPECT_THAT(f.err, ::testing::HasSubstr(words));
+  EXPECT_EQ(names_in(around.folder), std::vector<std::string>{});
+}
+
+// Named by the mistake; "mean" is followed by the nearest valid name.
+const std::vector<Mistake> mistakes{
+    {"NoVerb", "", {"required"}},
+    {"Verb", "rnu flag-400", {"verb: found rnu", "run, compare, network, info", "mean run?"}},
+    {"VerbFarFromAll", "dance flag-400", {"found dance", "run, compare, network, info"}},
+    {"Flag", "run two-nodes --lvel systemc", {"flag: found --lvel", "mean --level?"}},
+    {"FlagWithValue", "run two-nodes --stps=4", {"found --stps", "mean --steps?"}},
+    {"FlagOfAnotherVerb", "info two-nodes --steps 4", {"found --steps", "--toml"}},
+    {"FlagBeforeVerb", "--versoin", {"found --versoin", "mean --version?"}},
+    {"FlagBeforeScene", "run --no-chekc two-nodes", {"found --no-chekc", "mean --no-check?"}},
+    {"NoScene", "run", {"SCENE is required"}},
+    {"Scene", "run two-nodse", {"scene: found \"two-nodse\"", "flag-225, flag-400", "mean two-nodes?"}},
+    {"EmptyScene", "run ''", {"scene: found \"\"", "a scene file, or one of"}},
+    {"SceneFile", "info nowhere.toml", {"nowhere.toml: found no such file", "a scene file"}},
+    {"TwoScenes", "run two-nodes flag-400", {"not expected: flag-400"}},
+    {"Level", "run two-nodes --level refrence", {"--level: found refrence", "mean reference?"}},
+    {"LevelTwice", "run two-nodes --level systemc --level reference", {"--level"}},
+    {"Array", "run two-nodes --array dscent", {"found \"dscent\"", "\"prescaled\"", "mean descent?"}},
+    {"ArrayFile", "info two-nodes --array none.toml", {"none.toml: found no such file", "an array file"}},
+    {"FlagWithoutValue", "run two-nodes --out", {"--out", "missing"}},
+    {"SetWithoutValue", "run two-nodes --set", {"--set", "missing"}},
+    {"SetWithoutEquals", "run two-nodes --set probe.gamma", {"found \"probe.gamma\"", "key.path=value"}},
+    {"SetUnknownTable", "run two-nodes --set prboe.gamma=1", {"prboe", "unknown key"}},
+    {"SetUnknownKey", "run two-nodes --set probe.gmma=1", {"probe.gmma", "mean probe.gamma?"}},
+    {"SetUnknownArrayKey", "run two-nodes --set array.lane=1", {"array.lane", "mean array.lanes?"}},
+    {"SetUnknownFormat", "run two-nodes --set formats.wieght=1", {"formats.wieght", "mean formats.weight?"}},
+    {"SetFarTooLarge", "run two-nodes --set probe.gamma=1e999", {"probe.gamma: found", "0 to 1e15"}},
+    {"SetNotANumber", "run two-nodes --set motion.time_step=nan", {"motion.time_step: found nan"}},
+    {"SetWord", "run two-nodes --set mesh.mass=heavy", {"mesh.mass: found \"heavy\"", "a number"}},
+    {"SetSchedule", "run two-nodes --set array.schedule=colored", {"array.schedule", "coloured"}},
+    {"SetFormat", "run two-nodes --set formats.state=fixed<16,2,SC_RDN>", {"mean SC_RND?"}},
+    {"ArrayRule", "run two-nodes --set array.lanes=0", {"array.lanes: found 0", "1 to 64"}},
+    {"StepsZero", "run two-nodes --steps 0", {"--steps: found 0, expected an integer from 1"}},
+    {"StepsNegative", "compare two-nodes --steps -3", {"--steps: found -3, expected an integer from 1"}},
+    {"StepsReal", "run two-nodes --steps 1.5", {"--steps: found 1.5, expected an integer"}},
+    {"StepsWord", "run two-nodes --steps ten", {"--steps: found ten, expected an integer"}},
+    {"StepsHuge", "run two-nodes --steps 99999999999999999999", {"--steps: found 99999999999999999999"}},
+    {"Levels", "compare two-nodes --levels reference,systemd", {"found systemd", "mean systemc?"}},
+    {"OneLevel", "compare two-nodes --levels systemc", {"systemc alone", "at least two levels"}},
+    {"LevelInPairs", "compare two-nodes --levels systemc,systemc", {"systemc twice"}},
+    {"LevelApart", "compare two-nodes --levels systemc,systemc-clock,systemc", {"systemc twice"}},
+    {"NoStep", "network two-nodes --out n", {"--step is required"}},
+    {"NoOut", "network two-nodes --step 1", {"--out is required"}},
+    {"StepBeyond", "network two-nodes --step 40 --out n", {"--step: found 40, expected 0 to 39"}},
+    {"StepNegative", "network two-nodes --step -1 --out n", {"--step: found -1, expected an integer from 0"}},
+    {"WindowAlone", "run two-nodes --wave-window 0:1", {"--wave-window", "no --wave"}},
+    {"CellsAlone", "run two-nodes --wave-cells 0", {"--wave-cells", "no --wave"}},
+    {"WaveOfTheReference", "run two-nodes --level reference --wave w.vcd", {"--wave: found level reference"}},
+    {"WindowBackwards", "run two-nodes --wave w.vcd --wave-window 5:3", {"5:3", "begins before it ends"}},
+    {"WindowWord", "run two-nodes --wave w.vcd --wave-window now", {"found now", "FROM:TO"}},
+    {"CellsWord", "run two-nodes --wave w.vcd --wave-cells all", {"found all", "0,4,10-12"}},
+    {"CellsBackwards", "run flag-225 --wave w.vcd --wave-cells 5-2", {"found 5-2", "rising"}},
+    {"CellsWithoutEnd", "run two-nodes --wave w.vcd --wave-cells 0-999999999", {"0-999999999"}},
+    {"CellBeyond", "run two-nodes --wave w.vcd --wave-cells 1", {"found 1, expected cells below 1"}},
+    {"WaveIsAFolder", "run two-nodes --wave .", {"--wave: found the folder ."}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, CliMistake, ::testing::ValuesIn(mistakes),
+                         [](const auto& made) { return made.param.name; });
+
+TEST_F(Cli, ARuleThatOnlyTheMeshBreaksIsToldBeforeTheRun) {
+  const std::string line = " --set formats.weight=fixed<25,1> --set formats.link=fixed<28,2> "
+                           "--set formats.state=fixed<28,2>";
+  good("info two-nodes" + line); // 24 + 26 + 9 bits and 2 for rows of 3: 61; rows of 27 need 3 more
+  const Finished f = hopmesh("run flag-400 --out o" + line);
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+  EXPECT_THAT(f.err, ::testing::HasSubstr("for rows of 27 inputs"));
+  EXPECT_FALSE(std::filesystem::exists(at("o")));
+}
+
+TEST_F(Cli, AMistakeInAFileNamesItsLine) {
+  write_text(at("s.toml"), "[mesh]\ngrid = { rows = 2, columns = 2 }\npined = \"left\"\n");
+  const Finished f = hopmesh("run s.toml");
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, ::testing::HasSubstr("s.toml:3: mesh.pined"));
+  EXPECT_THAT(f.err, ::testing::HasSubstr("mean mesh.pinned?"));
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,51 @@
+// A plain software array that answers the register protocol: a level of its own for tests of the study, with
+// a fault to order.
+#pragma once
+
+#include "firmware/registers.h"
+#include "sim/study/array_port.h"
+#include "tests/support/slow_array.h"
+
+#include <map>
+#include <optional>
+
+namespace hopmesh::tests {
+
+/// One output bit flips at the end of a sweep, in every run from `from_run` on.
+struct Fault {
+  std::uint32_t sweep; ///< 1-based
+  std::uint32_t neuron;
+  std::int32_t bit = 1;          ///< what is flipped, as a mask
+  std::uint32_t from_run = 0;    ///< 0-based, counted in STARTs
+  std::uint64_t more_cycles = 0; ///< that each such run takes beyond the formula
+};
+
+class SoftArray : public study::ArrayPort {
+ public:
+  SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault = {});
+  SoftArray(const SoftArray&) = delete;
+  SoftArray& operator=(const SoftArray&) = delete;
+
+  const hm_bus& bus() override { return bus_; }
+  void begin_step(std::uint64_t step) override { begun.push_back(step); }
+  void end_step(std::uint64_t step) override { ended.push_back(step); }
+  std::vector<study::SignalRange> inner_ranges() const override;
+
+  bool refuse = false; ///< every transfer fails from now on
+  bool stop = false;   ///< waiting is given up
+  std::vector<std::uint64_t> begun, ended;
+
+ private:
+  std::uint32_t* word_at(std::uint32_t address);
+  int transfer(std::uint32_t address, std::uint32_t* words, std::uint32_t count, bool write);
+  void run();
+
+  ArrayJob job_;
+  std::optional<Fault> fault_;
+  std::map<std::uint32_t, std::uint32_t> registers_;
+  std::vector<std::uint32_t> first_link_, link_;
+  std::uint32_t runs_ = 0;
+  hm_bus bus_{};
+};
+
+} // namespace hopmesh::tests
