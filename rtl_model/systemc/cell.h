@@ -17,7 +17,7 @@ class Cell : public sc_core::sc_module {
   sc_core::sc_vector<sc_core::sc_port<LinkIf>> in; ///< one a neighbour, in link order
 
   Neuron& neuron(std::size_t p) const { return *neurons_[p]; }
-  void trace(sc_core::sc_trace_file* file) const;
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   void end_of_elaboration() override;

@@ -37,7 +37,7 @@ class InputAccumulator : public sc_core::sc_module {
   void set_weight(std::size_t tap, std::int32_t raw) { weights_[tap] = raw; }
   void set_bias(std::int32_t raw) { bias_ = raw; }
 
-  void trace(sc_core::sc_trace_file* file) const;
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   std::int64_t dot(std::size_t first, std::size_t last) const;

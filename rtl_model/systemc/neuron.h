@@ -31,7 +31,7 @@ class Neuron : public sc_core::sc_module {
 
   /// Loads V from the host; shows on the link at once.
   void load(std::int32_t raw);
-  void trace(sc_core::sc_trace_file* file) const;
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   void on_prepare_done();

@@ -26,7 +26,7 @@ class OutputStage : public sc_core::sc_module {
   /// A value from the host: cut to the format's width, then held within [-1, 1].
   void load(std::int32_t raw);
 
-  void trace(sc_core::sc_trace_file* file) const;
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   Wide exact_ratio(std::int64_t sum_raw) const;

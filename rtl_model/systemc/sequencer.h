@@ -53,7 +53,7 @@ class Sequencer : public sc_core::sc_module {
     return total_cycles_;
   } ///< of all runs, up to the current segment's start
 
-  void trace(sc_core::sc_trace_file* file) const;
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   void on_segment_end();

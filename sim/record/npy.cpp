@@ -35,7 +35,7 @@ template <class T> std::string header(std::size_t rows, const std::vector<std::s
 std::string value_of(const std::string& dictionary, const char* key) {
   const auto at = dictionary.find(key);
   if (at == std::string::npos) return {};
-  const auto begin = dictionary.find_first_not_of(" ", dictionary.find(':', at) + 1);
+  const auto begin = dictionary.find_first_not_of(' ', dictionary.find(':', at) + 1);
   return begin == std::string::npos ? std::string{} : dictionary.substr(begin);
 }
 

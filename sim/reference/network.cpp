@@ -64,7 +64,7 @@ class Assembly {
     Matrix W(gradient_.size(), gradient_.size());
     W.setFromTriplets(weights_.begin(), weights_.end());
     Vector I = -(W * V0) - gradient_;
-    return {std::move(W), std::move(I)};
+    return {W, std::move(I)};
   }
 
  private:
