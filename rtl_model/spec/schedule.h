@@ -63,6 +63,14 @@ inline Phases phases_of(const Topology& t, Schedule schedule) {
   return phases;
 }
 
+/// For each neuron, the phase in which it fires.
+inline std::vector<std::size_t> phase_of_neurons(const Topology& t, const Phases& phases) {
+  std::vector<std::size_t> phase(t.neurons());
+  for (std::size_t k = 0; k < phases.size(); ++k)
+    for (std::uint32_t neuron : phases[k]) phase[neuron] = k;
+  return phase;
+}
+
 /// Cycle counts of an array built for a topology (docs/cycles.md).
 struct CycleModel {
   std::uint64_t prepare = 0;        ///< once a run, after the start cycle: N of every row, and its reciprocal

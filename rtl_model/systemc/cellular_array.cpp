@@ -2,17 +2,6 @@
 
 namespace hopmesh::systemc {
 
-namespace {
-
-std::vector<std::size_t> phase_of_neurons(const spec::Topology& t, const spec::Phases& phases) {
-  std::vector<std::size_t> phase(t.neurons());
-  for (std::size_t k = 0; k < phases.size(); ++k)
-    for (std::uint32_t neuron : phases[k]) phase[neuron] = k;
-  return phase;
-}
-
-} // namespace
-
 CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec& array,
                              const spec::Topology& topology)
     : sc_module(name), array_(array), topology_(topology),
@@ -21,7 +10,7 @@ CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec
       detector("detector"), sequencer("sequencer", cycles_, period_, detector) {
   const ArrayContext context{array_,    topology_, spec::accumulator_format(array_, topology_.most_taps()),
                              sequencer, detector,  extremes};
-  const auto phase = phase_of_neurons(topology_, phases_);
+  const auto phase = spec::phase_of_neurons(topology_, phases_);
   const std::size_t per_cell = topology_.neurons_per_cell;
   for (std::size_t c = 0; c < topology_.cells(); ++c) {
     const std::string cell = "cell_" + std::to_string(c);

@@ -105,22 +105,32 @@ bool Device::find(std::uint64_t address, Place& place) const {
   return place.index < window.words;
 }
 
-void Device::transfer(tlm::tlm_generic_payload& payload, const Place& place, const sc_core::sc_time& delay) {
+// Moves whole words between the payload and what `write` and the getters reach.
+template <typename Write>
+void Device::move_words(tlm::tlm_generic_payload& payload, const Place& place, std::uint64_t words,
+                        Write write) {
   const auto offset = static_cast<std::uint32_t>(payload.get_address());
   unsigned char* at = payload.get_data_ptr();
-  for (std::uint64_t k = 0; k < payload.get_data_length() / 4; ++k, at += 4) {
+  for (std::uint64_t k = 0; k < words; ++k, at += 4) {
     std::uint32_t word;
     if (payload.is_read()) {
       word = place.window ? (this->*place.window->get)(place.index + k) : read_register(offset);
       std::memcpy(at, &word, 4);
     } else {
       std::memcpy(&word, at, 4);
-      if (place.window)
-        (this->*place.window->put)(place.index + k, word);
-      else
-        write_register(offset, word, delay);
+      write(offset, place.index + k, word);
     }
   }
+}
+
+void Device::transfer(tlm::tlm_generic_payload& payload, const Place& place, const sc_core::sc_time& delay) {
+  move_words(payload, place, payload.get_data_length() / 4,
+             [&](std::uint32_t offset, std::uint64_t index, std::uint32_t word) {
+               if (place.window)
+                 (this->*place.window->put)(index, word);
+               else
+                 write_register(offset, word, delay);
+             });
 }
 
 unsigned Device::transport_dbg(tlm::tlm_generic_payload& payload) {
@@ -130,21 +140,12 @@ unsigned Device::transport_dbg(tlm::tlm_generic_payload& payload) {
   if (!payload.is_read() && !payload.is_write()) return 0;
   const std::uint64_t room = place.window ? place.window->words - place.index : 1;
   const std::uint64_t words = std::min<std::uint64_t>(payload.get_data_length() / 4, room);
-  unsigned char* at = payload.get_data_ptr();
-  const auto offset = static_cast<std::uint32_t>(address);
-  for (std::uint64_t k = 0; k < words; ++k, at += 4) {
-    std::uint32_t word;
-    if (payload.is_read()) {
-      word = place.window ? (this->*place.window->get)(place.index + k) : read_register(offset);
-      std::memcpy(at, &word, 4);
-    } else {
-      std::memcpy(&word, at, 4);
-      if (place.window && place.window->writable)
-        (this->*place.window->put)(place.index + k, word);
-      else if (!place.window && registers_.writable(offset))
-        store(offset, word, sc_core::SC_ZERO_TIME);
-    }
-  }
+  move_words(payload, place, words, [&](std::uint32_t offset, std::uint64_t index, std::uint32_t word) {
+    if (place.window && place.window->writable)
+      (this->*place.window->put)(index, word);
+    else if (!place.window && registers_.writable(offset))
+      store(offset, word, sc_core::SC_ZERO_TIME);
+  });
   return static_cast<unsigned>(4 * words);
 }
 

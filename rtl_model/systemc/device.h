@@ -49,6 +49,8 @@ class Device : public sc_core::sc_module {
   unsigned transport_dbg(tlm::tlm_generic_payload& payload);
   tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, Place& place) const;
   bool find(std::uint64_t address, Place& place) const;
+  template <typename Write>
+  void move_words(tlm::tlm_generic_payload& payload, const Place& place, std::uint64_t words, Write write);
   void transfer(tlm::tlm_generic_payload& payload, const Place& place, const sc_core::sc_time& delay);
   std::uint32_t read_register(std::uint32_t offset) const;
   void write_register(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay);

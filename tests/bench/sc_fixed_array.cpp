@@ -46,13 +46,6 @@ template <typename Fixed> Fixed from_raw(std::int32_t code) {
   return x;
 }
 
-std::vector<std::size_t> phase_of_neurons(const spec::Topology& t, const spec::Phases& phases) {
-  std::vector<std::size_t> phase(t.neurons());
-  for (std::size_t k = 0; k < phases.size(); ++k)
-    for (std::uint32_t neuron : phases[k]) phase[neuron] = k;
-  return phase;
-}
-
 } // namespace
 
 // ---- neuron
@@ -151,7 +144,7 @@ ScFixedArray::ScFixedArray(sc_core::sc_module_name name, const spec::ArraySpec& 
 
 void ScFixedArray::wire() {
   const std::size_t per_cell = topology_.neurons_per_cell;
-  const auto phase = phase_of_neurons(topology_, phases_);
+  const auto phase = spec::phase_of_neurons(topology_, phases_);
   for (std::size_t i = 0; i < topology_.neurons(); ++i) {
     const std::size_t cell = i / per_cell;
     auto neuron = std::make_unique<ScFixedNeuron>(("neuron_" + std::to_string(i)).c_str(),
