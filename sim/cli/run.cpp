@@ -5,6 +5,7 @@
 #include "sim/study/run_files.h"
 #include "sim/study/run_picture.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
@@ -37,6 +38,12 @@ std::string command_of(const RunOptions& o) {
   return command;
 }
 
+// out/NAME; a slash in a name must not lead elsewhere.
+std::string default_folder(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '-');
+  return "out/" + (name == "." || name == ".." ? "scene" : name);
+}
+
 WaveRequest wave_of(const RunOptions& o) {
   WaveRequest wave = o.wave;
   if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))
@@ -56,7 +63,7 @@ int run(RunOptions& o) {
   if (o.steps > 0) o.common.overrides.pop_back();
   Level level = make_level(o.level, p, o.check, wave, "--level");
   const study::RunFacts facts{p.inputs, o.level, level.array != nullptr, command_of(o)};
-  const std::filesystem::path folder = o.out.empty() ? "out/" + p.inputs.scene.name : o.out;
+  const std::filesystem::path folder = o.out.empty() ? default_folder(p.inputs.scene.name) : o.out;
   study::RunFiles files(folder, facts, *p.mesh, *level.motion);
 
   study::RunResult result;

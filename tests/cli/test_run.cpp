@@ -27,6 +27,13 @@ TEST_F(CliRun, GoesToAFolderNamedAfterTheSceneByDefault) {
   EXPECT_EQ(fault_of_results(at("out/two-nodes"), 1), "");
 }
 
+TEST_F(CliRun, ANameWithSlashesLeadsNowhereElse) {
+  good("run two-nodes --steps 1 --set name=../../else");
+  good("run two-nodes --steps 1 --set name=..");
+  EXPECT_EQ(names_in(around.folder), std::vector<std::string>{"out"});
+  EXPECT_EQ(names_in(at("out")), (std::vector<std::string>{"..-..-else", "scene"}));
+}
+
 TEST_F(CliRun, OutMayHoldSpacesAndNewFolders) {
   good("run two-nodes --steps 1 --out 'my runs/the first one'");
   EXPECT_EQ(fault_of_results(at("my runs/the first one"), 1), "");
