@@ -35,7 +35,7 @@ std::string nearest_mode(const std::string& text) {
   for (auto start = text.find(','); start != std::string::npos; start = text.find(',', start + 1)) {
     const auto end = text.find_first_of(",>", start + 1);
     const std::string word = text.substr(start + 1, end == std::string::npos ? end : end - start - 1);
-    const std::string nearest = nearest_name(word, valid);
+    std::string nearest = nearest_name(word, valid);
     if (!nearest.empty() && nearest != word) return nearest;
   }
   return "";
