@@ -222,7 +222,7 @@ std::string encode_png(const Picture& picture) {
     throw std::runtime_error("libpng cannot encode the picture");
   }
   png_set_write_fn(png, &file, write_to_string, nullptr);
-  png_set_compression_level(png, 9);
+  png_set_compression_level(png, 5);
   png_set_IHDR(png, info, picture.width, picture.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
@@ -235,6 +235,11 @@ std::string encode_png(const Picture& picture) {
 
 std::string crest_png(std::uint32_t size) {
   return encode_png(draw_crest(size));
+}
+
+const std::string& flag_crest() {
+  static const std::string png = crest_png(512);
+  return png;
 }
 
 } // namespace hopmesh::record

@@ -14,12 +14,15 @@ struct Picture {
 };
 
 /// The same bytes at every call. The picture is square: it is stretched over flags of other shapes.
-Picture draw_crest(std::uint32_t size = 512);
+Picture draw_crest(std::uint32_t size);
 
 /// The bytes of a PNG file.
 std::string encode_png(const Picture& picture);
 
-/// The crest as PNG, ready to embed.
-std::string crest_png(std::uint32_t size = 512);
+/// The crest as PNG.
+std::string crest_png(std::uint32_t size);
+
+/// The one on every flag, 512 wide, ready to embed; drawn at the first call.
+const std::string& flag_crest();
 
 } // namespace hopmesh::record

@@ -84,7 +84,7 @@ class Packer {
 };
 
 void add_crest(tinygltf::Model& model, Packer& packer, tinygltf::Material& material) {
-  const std::string png = crest_png();
+  const std::string& png = flag_crest();
   tinygltf::Image image;
   image.name = "crest";
   image.mimeType = "image/png";

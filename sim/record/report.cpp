@@ -55,7 +55,7 @@ void put_mesh(nlohmann::json& run, const RunView& view) {
   for (std::size_t n = 0; n < view.pinned.size(); ++n)
     if (view.pinned[n]) run["pinned"].push_back(n);
   const bool crest = view.crest && !view.triangles.empty();
-  const std::string png = crest ? crest_png() : "";
+  const std::string png = crest ? flag_crest() : "";
   run["crest"] = crest ? "data:image/png;base64," + base64(png.data(), png.size()) : "";
 }
 

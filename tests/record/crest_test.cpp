@@ -27,14 +27,14 @@ Pixel at(const Picture& picture, std::uint32_t x, std::uint32_t y) {
 }
 
 TEST(Crest, PngDecodesToWhatWasDrawn) {
-  const Picture picture = decoded(crest_png());
+  const Picture picture = decoded(flag_crest());
   EXPECT_EQ(picture.width, 512u);
   EXPECT_EQ(picture.height, 512u);
-  EXPECT_EQ(picture.rgba, draw_crest().rgba);
+  EXPECT_EQ(picture.rgba, draw_crest(512).rgba);
 }
 
 TEST(Crest, HasABlueFieldAndAGoldenShield) {
-  const Picture picture = draw_crest();
+  const Picture picture = draw_crest(512);
   const Pixel field = at(picture, 80, 256), shield = at(picture, 160, 280);
   EXPECT_GT(field.b, 2 * field.r);
   EXPECT_GT(shield.r, 150);
@@ -45,7 +45,7 @@ TEST(Crest, HasABlueFieldAndAGoldenShield) {
 }
 
 TEST(Crest, IsTheSameAtEveryCall) {
-  EXPECT_EQ(crest_png(), crest_png());
+  EXPECT_EQ(crest_png(512), flag_crest());
 }
 
 TEST(Crest, SmallSizesWork) {

@@ -16,7 +16,7 @@ int main(int argc, char** argv) try {
   write_report(view, folder / "report.html");
   write_report(view, folder / "report-without-three.html", "/nonexistent");
   write_glb(view, folder / "mesh.glb");
-  write_file(folder / "crest.png", crest_png());
+  write_file(folder / "crest.png", flag_crest());
   view.good = false;
   view.crest = false;
   view.outcome = "Diverged at step 212: node 57 left the range of the positions' format.";
