@@ -77,6 +77,11 @@ int run(RunOptions& o) {
   fmt::print("{}: {}\n", p.inputs.scene.name, result.sentence);
   fmt::print("{}", study::text_of(study::run_tables(facts, *p.mesh, result, level.motion->ranges())));
   fmt::print("Results\n  {}\n", folder.string());
+  const std::string trouble = level.port ? level.port->trouble() : "";
+  if (!trouble.empty()) {
+    fmt::print(stderr, "hopmesh: {}\n", trouble);
+    return bad_input;
+  }
   if (result.outcome == study::Outcome::interrupted) return interrupted;
   return result.outcome == study::Outcome::diverged ? differs : done;
 }

@@ -14,7 +14,7 @@ SystemcPort::SystemcPort(sc_core::sc_module_name name, const spec::ArraySpec& ar
   sensitive << irq_.posedge_event();
   dont_initialize();
   device_.wake(waking);
-  if (!wave.file.empty()) wave_.emplace(wave, device_, irq_);
+  if (!wave.file.empty()) wave_.emplace(wave, device_, irq_, waking);
   // A wait may be cut into slices in which nothing happens; that is no news.
   sc_core::sc_report_handler::set_actions(sc_core::SC_ID_NO_SC_START_ACTIVITY_, sc_core::SC_DO_NOTHING);
 
@@ -58,6 +58,7 @@ int SystemcPort::wait_for_irq() {
   delay_ = sc_core::SC_ZERO_TIME;
   while (!irq_.read()) {
     if (stop_) return HM_ERROR_STOPPED;
+    if (wave_) wave_->mind_the_disk();
     bool wave_changes = false;
     sc_core::sc_start(next_slice(began, cycles_before, wave_changes));
     if (wave_changes && !irq_.read()) wave_->change();
@@ -66,7 +67,7 @@ int SystemcPort::wait_for_irq() {
 }
 
 sc_time SystemcPort::next_slice(sc_time began, std::uint64_t cycles_before, bool& wave_changes) const {
-  const sc_time slice = device_.cells.period() * 1e6;
+  const sc_time slice = device_.cells.period() * (wave_ && wave_->open_now() ? 1e3 : 1e6);
   const auto change = wave_ ? wave_->next_change(began, cycles_before) : std::nullopt;
   wave_changes = change && *change <= slice;
   return wave_changes ? *change : slice;
@@ -80,8 +81,13 @@ void SystemcPort::begin_step(std::uint64_t step) {
   if (wave_) wave_->begin_step(step);
 }
 
+// The run ended in this very instant, which SystemC traces only when time moves on: let the bus, which has
+// read the outputs back since then, have its time first.
 void SystemcPort::end_step(std::uint64_t step) {
-  if (wave_) wave_->end_step(step);
+  if (!wave_) return;
+  sc_core::sc_start(delay_);
+  delay_ = sc_core::SC_ZERO_TIME;
+  wave_->end_step(step);
 }
 
 std::vector<study::SignalRange> SystemcPort::inner_ranges() const {

@@ -22,6 +22,7 @@ class SystemcPort : public sc_core::sc_module, public study::ArrayPort {
   void begin_step(std::uint64_t step) override;
   void end_step(std::uint64_t step) override;
   std::vector<study::SignalRange> inner_ranges() const override;
+  std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:
   int transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words, std::uint32_t count);

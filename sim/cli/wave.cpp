@@ -41,8 +41,9 @@ std::vector<std::size_t> parse_cells(const std::string& text) {
   return cells;
 }
 
-Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq)
-    : request_(std::move(request)), device_(device), irq_(irq) {
+Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq,
+           systemc::Waking waking)
+    : request_(std::move(request)), device_(device), irq_(irq), waking_(waking) {
   const std::size_t cells = device.cells.topology().cells();
   for (std::size_t c : request_.cells)
     if (c >= cells)
@@ -52,7 +53,7 @@ Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signa
     throw scene::input_error("", 0, "--wave", "the folder " + request_.file, "the name of a file");
   const auto folder = std::filesystem::absolute(request_.file).parent_path();
   record::check_writable(folder, 1 << 20);
-  if (request_.in_cycles) device_.walk({request_.first, request_.last});
+  if (request_.in_cycles) walk({request_.first, request_.last});
 }
 
 Wave::~Wave() {
@@ -65,7 +66,8 @@ void Wave::open() {
   // SystemC would tell stdout, where results go, which unit of time was set.
   sc_core::sc_report_handler::set_actions(sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_DO_NOTHING);
   file_ = sc_core::sc_create_vcd_trace_file((request_.file + ".part").c_str());
-  file_->set_time_unit(1, sc_core::SC_NS);
+  const bool whole = device_.cells.period().value() % 2000 == 0; // half a cycle is so many nanoseconds
+  file_->set_time_unit(1, whole ? sc_core::SC_NS : sc_core::SC_PS);
   sc_core::sc_trace(file_, irq_, std::string(device_.name()) + ".irq");
   device_.cells.sequencer.trace(file_);
   if (request_.cells.empty())
@@ -80,19 +82,37 @@ void Wave::close() {
   const std::string part = request_.file + ".part.vcd"; // SystemC adds the ending
   std::error_code error;
   std::filesystem::rename(part, request_.file, error);
-  if (error) fmt::print(stderr, "hopmesh: {}: {}\n", request_.file, error.message());
+  if (error) trouble_ = request_.file + ": " + error.message();
+}
+
+// An array that is woken by every clock anyway stays so.
+void Wave::walk(systemc::CycleWindow window) {
+  if (waking_ == systemc::Waking::by_phase) device_.walk(window);
+}
+
+void Wave::mind_the_disk() {
+  constexpr std::uintmax_t least = 64u << 20; // more than a slice of a thousand cycles can write
+  if (!file_) return;
+  std::error_code error;
+  const auto space = std::filesystem::space(std::filesystem::absolute(request_.file).parent_path(), error);
+  if (error || space.available >= least) return;
+  walk({});
+  close();
+  trouble_ = request_.file + ": the wave ends early, its disk is nearly full (less than 64 MB left)";
 }
 
 void Wave::begin_step(std::uint64_t step) {
   began_ = true;
   if (request_.in_cycles || file_ || done_ || step < request_.first || step >= request_.last) return;
   open();
-  device_.walk({device_.cells.sequencer.total_cycles(), UINT64_MAX});
+  walk({device_.cells.sequencer.total_cycles(), UINT64_MAX});
 }
 
 void Wave::end_step(std::uint64_t step) {
-  if (request_.in_cycles || !file_ || step + 1 < request_.last) return;
-  device_.walk({});
+  if (!file_) return;
+  if (request_.in_cycles ? device_.cells.sequencer.total_cycles() < request_.last : step + 1 < request_.last)
+    return;
+  walk({});
   close();
 }
 
@@ -100,7 +120,8 @@ std::optional<sc_core::sc_time> Wave::next_change(sc_core::sc_time began, std::u
   if (!request_.in_cycles || done_) return std::nullopt;
   const std::uint64_t cycle = std::max(file_ ? request_.last : request_.first, cycles_before);
   if (cycle == UINT64_MAX) return std::nullopt;
-  const auto at = began + device_.cells.period() * static_cast<double>(cycle - cycles_before);
+  // Half-way between two edges: an edge belongs to the cycle that it ends.
+  const auto at = began + device_.cells.period() * (static_cast<double>(cycle - cycles_before) + 0.5);
   const auto now = sc_core::sc_time_stamp();
   return at > now ? at - now : sc_core::SC_ZERO_TIME;
 }

@@ -25,7 +25,9 @@ std::vector<std::size_t> parse_cells(const std::string& text);
 class Wave {
  public:
   /// Throws scene::InputError for a cell that the array does not have.
-  Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq);
+  /// `waking`: of the array outside the window.
+  Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq,
+       systemc::Waking waking);
   ~Wave();
   Wave(const Wave&) = delete;
   Wave& operator=(const Wave&) = delete;
@@ -36,16 +38,25 @@ class Wave {
   /// `began`.
   std::optional<sc_core::sc_time> next_change(sc_core::sc_time began, std::uint64_t cycles_before) const;
   void change();
+  /// While the wave is open: ends it, complete up to now, when its disk is nearly full (SystemC does not
+  /// look).
+  void mind_the_disk();
+  bool open_now() const { return file_ != nullptr; }
+  /// Why there is no whole wave, in one line; empty if all is well.
+  const std::string& trouble() const { return trouble_; }
 
  private:
   void open();
   void close();
+  void walk(systemc::CycleWindow window);
 
   const WaveRequest request_;
   systemc::Device& device_;
   const sc_core::sc_signal<bool>& irq_;
+  const systemc::Waking waking_;
   sc_core::sc_trace_file* file_ = nullptr;
   bool began_ = false, done_ = false;
+  std::string trouble_;
 };
 
 } // namespace hopmesh::cli

@@ -30,6 +30,8 @@ class ArrayPort {
   virtual void end_step(std::uint64_t) {}
   /// Signals that no bus shows: s and u.
   virtual std::vector<SignalRange> inner_ranges() const { return {}; }
+  /// What went wrong without touching the results, in one line: a wave that could not be written.
+  virtual std::string trouble() const { return {}; }
 };
 
 /// Makes the array of a level. All ports of a process are made before the first is used (SystemC elaborates

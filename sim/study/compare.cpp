@@ -151,7 +151,8 @@ std::string text_of(const Difference& d, const std::string& scene) {
   if (d.where)
     text += text_of(*d.where, d);
   else
-    text += "  every output is the same after every sweep\n";
+    text += "  run again from the same start, every output is the same after every sweep: the fault does not "
+            "repeat\n";
   return text + fmt::format("  a wave of that step: hopmesh run {} --level systemc --steps {} --wave "
                             "step.vcd --wave-window {}:{}\n",
                             scene, d.step + 1, d.step, d.step + 1);

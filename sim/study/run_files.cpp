@@ -2,6 +2,7 @@
 
 #include "sim/record/gltf.h"
 #include "sim/record/report.h"
+#include "sim/study/array_info.h"
 #include "sim/study/run_picture.h"
 #include "study_version.h"
 
@@ -100,11 +101,15 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
     std::filesystem::remove(folder_ / "outputs_raw.npy", none);
   table_.commit();
   const std::string what = manifest(result);
-  record::write_file(folder_ / "stats.json", statistics(result, motion));
   record::write_file(folder_ / "manifest.json", what);
-  const auto view = run_picture(facts_, mesh_, result, motion.ranges(), folder_ / "positions.npy", what);
+  auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
   record::write_glb(view, folder_ / "mesh.glb");
+  view.tables = run_tables(facts_, mesh_, result, motion.ranges());
+  if (facts_.fixed)
+    for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
+      view.tables.push_back(table);
   record::write_report(view, folder_ / "report.html");
+  record::write_file(folder_ / "stats.json", statistics(result, motion)); // last: it knows the peak memory
 }
 
 std::string RunFiles::statistics(const RunResult& result, const Motion& motion) const {

@@ -112,8 +112,7 @@ std::vector<FigureTable> run_tables(const RunFacts& facts, const BuiltMesh& mesh
 }
 
 record::RunView run_picture(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
-                            const std::vector<SignalRange>& ranges, const std::filesystem::path& positions,
-                            std::string manifest) {
+                            const std::filesystem::path& positions, std::string manifest) {
   const scene::Scene& scene = facts.inputs.scene;
   record::RunView view;
   view.title = scene.name;
@@ -128,9 +127,6 @@ record::RunView run_picture(const RunFacts& facts, const BuiltMesh& mesh, const 
   add_surface(mesh.mesh(), view);
   add_frames(positions, scene.motion.time_step, view);
   add_series(facts, result.rows, view);
-  view.tables = run_tables(facts, mesh, result, ranges);
-  if (facts.fixed)
-    for (auto& table : array_info(scene, mesh, facts.inputs.array)) view.tables.push_back(std::move(table));
   return view;
 }
 

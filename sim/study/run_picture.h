@@ -10,8 +10,7 @@ inline constexpr std::size_t most_frames = 240; ///< shown in the report; glTF t
 
 /// Frames are read back from positions.npy, evenly, first and last included.
 record::RunView run_picture(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
-                            const std::vector<SignalRange>& ranges, const std::filesystem::path& positions,
-                            std::string manifest);
+                            const std::filesystem::path& positions, std::string manifest);
 
 /// "The run", "Accuracy" and "Codes seen": the figures that the end of a run prints.
 std::vector<std::pair<std::string, std::vector<record::Figure>>>

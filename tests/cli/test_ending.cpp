@@ -129,11 +129,25 @@ TEST_F(CliEnding, ADiskThatIsTooSmallIsRefusedBeforeTheRun) {
   EXPECT_TRUE(empty);
 }
 
+TEST_F(CliEnding, AWaveEndsEarlyAndSaysSoWhenItsDiskIsNearlyFull) {
+  fs::create_directory(at("disk"));
+  if (mount("tmpfs", at("disk").c_str(), "tmpfs", 0, "size=65m") != 0)
+    GTEST_SKIP() << "no right to mount a small disk";
+  const Finished f = hopmesh("run flag-225 --steps 2 --no-check --out r --wave disk/w.vcd");
+  const std::string wave = content_of(at("disk/w.vcd"));
+  umount(at("disk").c_str());
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, ::testing::HasSubstr("disk/w.vcd: the wave ends early"));
+  EXPECT_THAT(wave, ::testing::HasSubstr("$enddefinitions"));
+  EXPECT_EQ(wave.back(), '\n');
+  EXPECT_EQ(read_array(at("r/positions.npy")).shape[0], 3u); // the run itself is whole
+}
+
 TEST_F(CliEnding, AFileThatCannotGrowLeavesNoHalfOfIt) {
   around.largest_file = 200'000; // the report is larger, all else is not
   expect_refused(hopmesh("run two-nodes --steps 3 --out r"), "report.html: ");
   EXPECT_EQ(names_in(at("r")), (std::vector<std::string>{"manifest.json", "mesh.glb", "outputs_raw.npy",
-                                                         "positions.npy", "stats.json", "steps.csv"}));
+                                                         "positions.npy", "steps.csv"}));
   EXPECT_EQ(read_array(at("r/positions.npy")).shape[0], 4u);
   around.largest_file = 4'000; // not even the positions
   expect_refused(hopmesh("run flag-225 --steps 2 --no-check --out q"), "positions.npy: ");
