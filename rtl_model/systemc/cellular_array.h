@@ -33,9 +33,10 @@ class CellularArray : public sc_core::sc_module {
   Sequencer sequencer;
 
  private:
-  void wire_links();
-
+  const ArrayContext context_;
   std::vector<std::unique_ptr<Cell>> cells_;
+
+  void wire_links();
 };
 
 } // namespace hopmesh::systemc

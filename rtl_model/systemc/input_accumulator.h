@@ -1,7 +1,7 @@
 // First part of a neuron: s = sum of weight * link + bias, and N = sum |weight| + |bias| (docs/datapath.md).
 #pragma once
 
-#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/systemc/datapath.h"
 
 #include <systemc>
 #include <vector>
@@ -12,15 +12,14 @@ namespace hopmesh::systemc {
 /// time, as the hardware does every cycle, or a whole row at once; both leave the same bits.
 class InputAccumulator : public sc_core::sc_module {
  public:
-  /// `accumulator`: the register's format. A row of `taps` inputs reads `per_source` wires of each source.
-  InputAccumulator(sc_core::sc_module_name name, const spec::ArraySpec& array,
-                   const spec::NumberFormat& accumulator, std::size_t per_source, std::size_t taps);
+  /// A row of `taps` inputs. The datapath is the array's and must outlive its neurons.
+  InputAccumulator(sc_core::sc_module_name name, const Datapath& path, std::size_t taps);
 
   /// Wires of the next source, in the order of taps.
   void connect(const std::int32_t* source) { sources_.push_back(source); }
 
   std::size_t taps() const { return weights_.size(); }
-  std::size_t beats() const { return (taps() + lanes_ - 1) / lanes_; }
+  std::size_t beats() const { return (taps() + path_.lanes - 1) / path_.lanes; }
 
   void begin_sum();             ///< s <- bias
   void sum_beat(std::size_t k); ///< adds the k-th group of lanes
@@ -44,13 +43,7 @@ class InputAccumulator : public sc_core::sc_module {
   std::int64_t dot_row() const;
   void add(std::int64_t products);
 
-  const std::size_t lanes_;
-  const spec::NumberFormat format_;
-  const bool exact_;
-  const int product_up_, sum_up_; ///< places that bring products and s to their common last place
-  const int bias_places_;         ///< places by which the bias is finer than s (below zero: coarser)
-  const int weight_norm_up_, bias_norm_up_; ///< the same for N
-  const std::size_t per_source_;
+  const Datapath& path_;
   std::vector<std::int32_t> weights_;
   std::vector<const std::int32_t*> sources_;
   std::int32_t bias_ = 0;

@@ -4,11 +4,9 @@ namespace hopmesh::systemc {
 
 Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::size_t phase, std::size_t taps,
                LinkRegister& link, std::size_t p)
-    : sc_module(name),
-      accumulator("accumulator", context.array, context.accumulator, context.topology.neurons_per_cell, taps),
-      output("output", context.array, context.accumulator), sequencer_(context.sequencer),
-      detector_(context.detector), extremes_(context.extremes), link_(link), p_(p),
-      segment_(Sequencer::first_phase + static_cast<int>(phase)),
+    : sc_module(name), accumulator("accumulator", context.path, taps), output("output", context.path),
+      sequencer_(context.sequencer), detector_(context.detector), extremes_(context.extremes), link_(link),
+      p_(p), segment_(Sequencer::first_phase + static_cast<int>(phase)),
       phase_cycles_(context.sequencer.phase_cycles(phase)),
       normalise_cycles_(spec::normalise_cycles(context.array)) {
   SC_METHOD(on_prepare_done);

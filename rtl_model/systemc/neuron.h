@@ -13,7 +13,7 @@ namespace hopmesh::systemc {
 struct ArrayContext {
   const spec::ArraySpec& array;
   const spec::Topology& topology;
-  const spec::NumberFormat accumulator;
+  const Datapath path;
   Sequencer& sequencer;
   ConvergenceDetector& detector;
   Extremes& extremes;

@@ -1,7 +1,7 @@
 // Second part of a neuron: u = s / N, R = 1 - V or 1 + V, V <- V + R u (docs/datapath.md).
 #pragma once
 
-#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/systemc/datapath.h"
 #include "rtl_model/systemc/rounding.h"
 
 #include <systemc>
@@ -11,8 +11,8 @@ namespace hopmesh::systemc {
 /// Holds V, and the registers u and delta on the way to it. Knows nothing of neighbours.
 class OutputStage : public sc_core::sc_module {
  public:
-  OutputStage(sc_core::sc_module_name name, const spec::ArraySpec& array,
-              const spec::NumberFormat& accumulator);
+  /// The datapath is the array's and must outlive its neurons.
+  OutputStage(sc_core::sc_module_name name, const Datapath& path);
 
   void
   set_norm(std::int64_t norm_raw); ///< once a run; for `reciprocal` this is where the reciprocal is divided
@@ -31,12 +31,7 @@ class OutputStage : public sc_core::sc_module {
  private:
   Wide exact_ratio(std::int64_t sum_raw) const;
 
-  const spec::Normaliser normaliser_;
-  const spec::NumberFormat drive_format_, state_format_, link_format_;
-  const int reciprocal_bits_;
-  const int ratio_up_;      ///< s * 2^ratio_up_ / N counts in the drive's last place
-  const int scaled_places_; ///< places by which s is finer than u (prescaled rows)
-  const bool narrow_;       ///< s * 2^ratio_up_ fits 63 bits: a 64-bit division will do
+  const Datapath& path_;
   std::int64_t norm_ = 0, reciprocal_ = 0, drive_ = 0, delta_ = 0, state_ = 0;
   int reciprocal_places_ = 0;
 };

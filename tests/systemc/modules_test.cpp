@@ -23,8 +23,8 @@ using systemc::Sequencer;
 void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, std::size_t per_source) {
   const std::size_t taps = sources * per_source;
   const spec::NumberFormat format = spec::accumulator_format(array, taps);
-  InputAccumulator whole("whole", array, format, per_source, taps),
-      beats("beats", array, format, per_source, taps);
+  const systemc::Datapath path(array, format, per_source);
+  InputAccumulator whole("whole", path, taps), beats("beats", path, taps);
   const std::int64_t one = array.formats.link.one_raw();
   std::vector<std::vector<std::int32_t>> wires(sources, std::vector<std::int32_t>(per_source));
   std::vector<std::int64_t> weights, links;
@@ -112,7 +112,8 @@ TEST(Stage, NoInputAtAllKeepsV) {
   for (auto normaliser : {Normaliser::divider, Normaliser::reciprocal})
     for (int rounding = 0; rounding < 7; ++rounding) {
       const auto a = stage_spec(normaliser, static_cast<Rounding>(rounding));
-      OutputStage stage("stage", a, spec::exact_accumulator_format(a.formats, 3));
+      const systemc::Datapath path(a, spec::exact_accumulator_format(a.formats, 3), 3);
+      OutputStage stage("stage", path);
       for (std::int64_t n : {5, 0}) { // and an N of an earlier run is forgotten
         stage.set_norm(n);
         for (std::int64_t v : {-16384, -16383, -1, 0, 1, 16383, 16384}) {
@@ -129,7 +130,8 @@ TEST(Stage, BoundsAreReachedAndNeverPassed) {
     for (int rounding = 0; rounding < 7; ++rounding) {
       const auto a = stage_spec(static_cast<Normaliser>(normaliser), static_cast<Rounding>(rounding));
       const auto accumulator = spec::exact_accumulator_format(a.formats, 3); // 29 fraction bits
-      OutputStage stage("stage", a, accumulator);
+      const systemc::Datapath path(a, accumulator, 3);
+      OutputStage stage("stage", path);
       const std::int64_t n = 32768, full = std::int64_t{1} << 29, one = 16384; // N = 1.0 of 15 fraction bits
       stage.set_norm(n);
       for (std::int64_t v : {-one, -one + 1, std::int64_t{0}, one - 1, one})
@@ -152,7 +154,8 @@ TEST(Stage, TheReciprocalIsNeverTooLarge) {
     auto a = stage_spec(Normaliser::reciprocal, Rounding::trn_zero);
     a.reciprocal_bits = bits;
     const auto accumulator = spec::exact_accumulator_format(a.formats, 27);
-    OutputStage stage("stage", a, accumulator);
+    const systemc::Datapath path(a, accumulator, 3);
+    OutputStage stage("stage", path);
     double worst = 0;
     for (int k = 0; k < 20000; ++k) {
       const std::int64_t n = 1 + static_cast<std::int64_t>(dice.below(std::uint64_t{1} << dice.below(28)));
