@@ -14,6 +14,8 @@ struct BrowserVisit {
 };
 
 bool browser_present();
-BrowserVisit visit(const std::filesystem::path& page, const std::string& more_flags = "");
+/// `budget_ms`: of the page's own time, after which it is looked at.
+BrowserVisit visit(const std::filesystem::path& page, const std::string& more_flags = "",
+                   int budget_ms = 4000);
 
 } // namespace hopmesh::record
