@@ -44,6 +44,16 @@ const char* name_of(Outcome outcome) {
                                         : "interrupted";
 }
 
+template <typename Figure> double median(const std::vector<StepRow>& rows, Figure figure) {
+  std::vector<double> values;
+  for (const StepRow& row : rows)
+    if (row.error) values.push_back(figure(*row.error));
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 } // namespace
 
 Totals totals_of(const RunResult& result, const BuiltMesh& mesh) {
@@ -61,6 +71,8 @@ Totals totals_of(const RunResult& result, const BuiltMesh& mesh) {
     t.largest_network_error = std::max(t.largest_network_error, row.error->network);
     t.worst_energy_gap = std::max(t.worst_energy_gap, row.error->energy_gap);
   }
+  t.median_error = median(result.rows, [](const ReferenceError& e) { return e.rms_output; });
+  t.median_energy_gap = median(result.rows, [](const ReferenceError& e) { return e.energy_gap; });
   t.updates = t.sweeps * mesh.topology().neurons();
   t.peak_memory_mb = peak_memory_mb();
   return t;
@@ -135,7 +147,9 @@ std::string RunFiles::statistics(const RunResult& result, const Motion& motion) 
     json["bus_cycles"] = t.bus_cycles;
     json["simulated_cycles_per_second"] = s > 0 ? static_cast<double>(t.cycles) / s : 0;
     json["clipped"] = t.clipped;
-    json["against_reference"] = {{"largest_output_error", t.largest_error},
+    json["against_reference"] = {{"median_output_error_rms", t.median_error},
+                                 {"median_energy_gap", t.median_energy_gap},
+                                 {"largest_output_error", t.largest_error},
                                  {"largest_energy_gap", t.worst_energy_gap},
                                  {"largest_network_error", t.largest_network_error}};
     if (result.rows.empty() || !result.rows.front().error) json["against_reference"] = nullptr;

@@ -22,6 +22,7 @@ struct RunFacts {
 struct Totals {
   std::uint64_t steps = 0, sweeps = 0, cycles = 0, bus_cycles = 0, updates = 0, clipped = 0, unconverged = 0;
   double worst_strain = 0, largest_error = 0, largest_network_error = 0, worst_energy_gap = 0;
+  double median_error = 0, median_energy_gap = 0; ///< of the steps: rms error of outputs, energy left
   double peak_memory_mb = 0;
 };
 Totals totals_of(const RunResult& result, const BuiltMesh& mesh);

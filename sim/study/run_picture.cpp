@@ -82,7 +82,9 @@ FigureTable run_table(const RunFacts& facts, const Totals& t, double seconds) {
 
 FigureTable accuracy_table(const Totals& t) {
   return {"Against the double reference, step by step",
-          {{"largest output error", fmt::format("{:.3g}", t.largest_error)},
+          {{"output error of a step", fmt::format("{:.3g} rms (median)", t.median_error)},
+           {"energy left of a step's fall", fmt::format("{:.3g} (median)", t.median_energy_gap)},
+           {"largest output error", fmt::format("{:.3g}", t.largest_error)},
            {"largest energy left", fmt::format("{:.3g} of a step's fall", t.worst_energy_gap)},
            {"largest weight or bias error", fmt::format("{:.2g} of the largest", t.largest_network_error)},
            {"weights and biases clipped", grouped(t.clipped)}}};
