@@ -1,0 +1,132 @@
+// The array `descent` in SystemC: in exact integer arithmetic, the network's energy falls or stays in every
+// sweep, whatever the symmetric network. And the one order in which nothing is promised: all at once.
+#include "rtl_model/spec/array_rules.h"
+#include "tests/support/dut.h"
+#include "tests/support/random_network.h"
+
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace hopmesh::tests {
+namespace {
+
+__extension__ typedef __int128 Wide;
+using Codes = std::vector<std::int32_t>;
+
+/// Word of the weight of neuron `to` (cell, p) from neuron `from`; the cells are equal or linked.
+std::size_t weight_word(const spec::Topology& t, std::size_t to, std::size_t p, std::size_t from,
+                        std::size_t q) {
+  std::size_t block = 0;
+  for (std::size_t k = t.first_link[to]; from != to && k < t.first_link[to + 1]; ++k)
+    if (t.link_to[k] == from) block = 1 + k - t.first_link[to];
+  return t.row_offset(to, p) + block * t.neurons_per_cell + q;
+}
+
+/// Calls visit(cell, p, other, q) for every weight there is.
+template <typename Visit> void for_each_weight(const spec::Topology& t, Visit visit) {
+  const std::size_t n = t.neurons_per_cell;
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = 0; k <= t.degree(c); ++k)
+      for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t q = 0; q < n; ++q) visit(c, p, k == 0 ? c : t.link_to[t.first_link[c] + k - 1], q);
+}
+
+void make_symmetric(ArrayJob& job) {
+  const spec::Topology& t = job.topology;
+  for_each_weight(t, [&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+    job.weight[weight_word(t, d, q, c, p)] = job.weight[weight_word(t, c, p, d, q)];
+  });
+}
+
+/// Twice the energy, -V'WV - 2 I'V, in units of the weight's last place times the square of the state's.
+Wide energy(const ArrayJob& job, const Codes& V) {
+  const spec::Topology& t = job.topology;
+  const std::size_t n = t.neurons_per_cell;
+  Wide sum = 0;
+  for_each_weight(t, [&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+    sum -= Wide{job.weight[weight_word(t, c, p, d, q)]} * V[c * n + p] * V[d * n + q];
+  });
+  for (std::size_t i = 0; i < V.size(); ++i)
+    sum -= 2 * Wide{job.bias[i]} * V[i] * job.array.formats.state.one_raw();
+  return sum;
+}
+
+/// `descent` with other widths, either normaliser that keeps the proof, either order.
+spec::ArraySpec descending_array(Dice& dice) {
+  spec::ArraySpec a = spec::descent_array();
+  const int width = static_cast<int>(dice.between(6, 24));
+  for (auto* format : {&a.formats.state, &a.formats.link}) format->width = width;
+  a.formats.drive.width = static_cast<int>(dice.between(6, 24));
+  if (dice.one_in(2)) a.normaliser = spec::Normaliser::reciprocal;
+  if (dice.one_in(3)) a.schedule = spec::Schedule::sequential;
+  return a;
+}
+
+ArrayJob descending_job(std::uint64_t seed) {
+  Dice dice(seed);
+  const spec::ArraySpec array = descending_array(dice);
+  ArrayJob job = random_codes(dice, array, random_topology(dice, 25));
+  make_symmetric(job);
+  for (auto& V : job.start) // as the device will hold it
+    V = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(V, -array.formats.state.one_raw(), array.formats.state.one_raw()));
+  return job;
+}
+
+void load(Dut& dut, const ArrayJob& job) {
+  ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
+  ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
+  ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
+}
+
+TEST(CosimDescent, EnergyNeverRisesInAnySweep) {
+  constexpr std::uint64_t jobs = 300;
+  std::vector<ArrayJob> all;
+  std::vector<std::unique_ptr<Dut>> duts;
+  for (std::uint64_t seed = 1; seed <= jobs; ++seed) {
+    all.push_back(descending_job(seed));
+    duts.push_back(
+        std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), all.back().array, all.back().topology));
+  }
+  std::size_t falls = 0;
+  for (std::size_t k = 0; k < jobs; ++k) {
+    SCOPED_TRACE("seed " + std::to_string(k + 1) + ": " + describe(all[k]));
+    load(*duts[k], all[k]);
+    Wide before = energy(all[k], all[k].start);
+    for (int sweep = 0; sweep < 20; ++sweep) {
+      duts[k]->start(0, 1); // one sweep from where the last one ended
+      duts[k]->run_until_done();
+      const Wide now = energy(all[k], duts[k]->read(HM_WINDOW_OUTPUT, all[k].topology.neurons()));
+      ASSERT_TRUE(now <= before) << "sweep " << sweep;
+      falls += now < before;
+      before = now;
+    }
+  }
+  EXPECT_GT(falls, 10 * jobs / 2); // it is not that nothing moves
+}
+
+/// W = [[0, -1], [-1, 0]], I = 0, V = (1, 1): all at once it flips to (-1, -1) and back for ever; one at a
+/// time it rests.
+TEST(CosimDescent, AllAtOnceTwoNeuronsFlipForEver) {
+  const spec::Topology pair = topology_of(2, 2, {{0, 1}});
+  spec::ArraySpec together = spec::descent_array(), in_turn = together;
+  together.schedule = spec::Schedule::synchronous;
+  ArrayJob job{together, pair, Codes(pair.weight_words(), 0), Codes(4, 0), {16384, 0, 16384, 0}, 0, 1};
+  job.weight[weight_word(pair, 0, 0, 1, 0)] = job.weight[weight_word(pair, 1, 0, 0, 0)] = -32768;
+  Dut flipping("flipping", together, pair), resting("resting", in_turn, pair);
+  load(flipping, job);
+  load(resting, job);
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    flipping.start(0, 1);
+    flipping.run_until_done();
+    const int V = sweep % 2 == 0 ? -16384 : 16384;
+    EXPECT_EQ(flipping.read(HM_WINDOW_OUTPUT, 4), (Codes{V, 0, V, 0})) << sweep;
+  }
+  resting.start(0, 100);
+  resting.run_until_done();
+  EXPECT_EQ(resting.read(HM_REG_STATUS), static_cast<std::uint32_t>(HM_STATUS_DONE | HM_STATUS_CONVERGED));
+  EXPECT_EQ(resting.read(HM_WINDOW_OUTPUT, 4), (Codes{-16384, 0, 16384, 0}));
+}
+
+} // namespace
+} // namespace hopmesh::tests
