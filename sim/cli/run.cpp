@@ -17,7 +17,7 @@ struct RunOptions {
   std::string level = "systemc", out, wave_window, wave_cells;
   WaveRequest wave;
   std::int64_t steps = 0;
-  bool check = true;
+  bool no_check = false;
 };
 
 std::string shell_word(const std::string& word) {
@@ -61,7 +61,7 @@ int run(RunOptions& o) {
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   const Prepared p = prepare(o.common);
   if (o.steps > 0) o.common.overrides.pop_back();
-  Level level = make_level(o.level, p, o.check, wave, "--level");
+  Level level = make_level(o.level, p, !o.no_check, wave, "--level");
   const study::RunFacts facts{p.inputs, o.level, level.array != nullptr, command_of(o)};
   const std::filesystem::path folder = o.out.empty() ? default_folder(p.inputs.scene.name) : o.out;
   study::RunFiles files(folder, facts, *p.mesh, *level.motion);
@@ -97,7 +97,7 @@ void add_run(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
-  verb->add_flag("!--no-check", o->check, "do not ask the double reference beside every step");
+  verb->add_flag("--no-check", o->no_check, "do not ask the double reference beside every step");
   verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");
   verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
   verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");

@@ -45,25 +45,9 @@ hm_motion motion_of(const scene::Scene& scene) {
 
 ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                          ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)) {
+    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)), memory_(mesh),
+      buffer_(4096) {
   if (check) check_.emplace(scene, mesh, array.schedule);
-  for (const auto& x : mesh.mesh().position) position_.insert(position_.end(), x.begin(), x.end());
-  velocity_.assign(position_.size(), 0.0);
-  acceleration_ = predicted_ = velocity_;
-  const std::size_t neurons = mesh.cells() * mesh.components();
-  energy_change_.assign(mesh.cells(), 0.0);
-  start_.assign(neurons, 0.0);
-  bias_ = output_ = start_;
-  weight_.assign(hm_weight_count(&mesh.firmware()), 0.0);
-  buffer_.resize(4096);
-  state_ = hm_state{position_.data(),
-                    velocity_.data(),
-                    acceleration_.data(),
-                    predicted_.data(),
-                    energy_change_.data(),
-                    start_.data(),
-                    {weight_.data(), bias_.data(), output_.data()},
-                    0};
 }
 
 // The array is looked at with the first step, when every port of the process has been made.
@@ -75,13 +59,13 @@ void ArrayMotion::open() {
 
 StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
-  const auto x = position_, v = velocity_, a = acceleration_;
-  const std::uint64_t step = state_.step, bus_before = bus_cycles();
-  if (check_) check_->begin(x.data(), v.data(), a.data(), output_, step);
+  const auto x = memory_.position, v = memory_.velocity, a = memory_.acceleration;
+  const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
+  if (check_) check_->begin(x.data(), v.data(), a.data(), memory_.output, step);
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;
-  const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &state_, &result);
+  const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
   if (error == HM_ERROR_STOPPED) throw Stopped();
   if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
   if (error != HM_OK) throw std::runtime_error(error_text(error));
@@ -90,24 +74,24 @@ StepRow ArrayMotion::advance() {
 
   StepRow row;
   row.step = step;
-  row.time = static_cast<double>(state_.step) * motion_.time_step;
+  row.time = static_cast<double>(memory_.state.step) * motion_.time_step;
   row.sweeps = result.sweeps;
   row.cycles = result.cycles;
   row.converged = result.converged;
   row.clipped = driver_.clipped;
   row.bus_cycles = bus_cycles() - bus_before;
-  for (double V : output_) row.saturated += std::fabs(V) >= 1;
-  measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
-  if (check_) row.error = check_->judge(state_.network, start_);
+  for (double V : memory_.output) row.saturated += std::fabs(V) >= 1;
+  measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
+  if (check_) row.error = check_->judge(memory_.state.network, memory_.start);
   row.hash = hash();
   return row;
 }
 
 void ArrayMotion::keep_finite(const std::vector<double>& x, const std::vector<double>& v,
                               const std::vector<double>& a) {
-  for (std::size_t k = 0; k < position_.size(); ++k) {
-    if (std::isfinite(position_[k]) && std::isfinite(velocity_[k])) continue;
-    position_ = x, velocity_ = v, acceleration_ = a;
+  for (std::size_t k = 0; k < memory_.position.size(); ++k) {
+    if (std::isfinite(memory_.position[k]) && std::isfinite(memory_.velocity[k])) continue;
+    memory_.position = x, memory_.velocity = v, memory_.acceleration = a;
     throw Diverged("node " + std::to_string(k / 3) + " has no finite position");
   }
 }
@@ -136,7 +120,7 @@ std::vector<SignalRange> ArrayMotion::ranges() const {
 
 std::uint64_t ArrayMotion::hash() const {
   std::uint64_t h = 0;
-  for (const auto* values : {&position_, &velocity_, &acceleration_, &output_})
+  for (const auto* values : {&memory_.position, &memory_.velocity, &memory_.acceleration, &memory_.output})
     h = XXH64(values->data(), values->size() * sizeof(double), h);
   return h;
 }

@@ -1,10 +1,10 @@
 // The way of the data at fixed levels: firmware integrator, driver, bus, array, and back.
 #pragma once
 
-#include "firmware/integrator.h"
 #include "sim/study/bus_profile.h"
 #include "sim/study/motion.h"
 #include "sim/study/reference_check.h"
+#include "sim/study/step_memory.h"
 
 namespace hopmesh::study {
 
@@ -15,13 +15,13 @@ class ArrayMotion : public Motion {
               bool check);
 
   StepRow advance() override;
-  const std::vector<double>& positions() const override { return position_; }
-  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(output_)); }
+  const std::vector<double>& positions() const override { return memory_.position; }
+  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.output)); }
   std::vector<SignalRange> ranges() const override;
 
   /// What the last step loaded: start as raw codes [cells * components].
-  std::vector<std::int32_t> start_raw() const { return raw(start_); }
-  std::vector<std::int32_t> rest_raw() const { return raw(output_); }
+  std::vector<std::int32_t> start_raw() const { return raw(memory_.start); }
+  std::vector<std::int32_t> rest_raw() const { return raw(memory_.output); }
   const hm_driver& driver() const { return driver_; }
 
  private:
@@ -38,9 +38,7 @@ class ArrayMotion : public Motion {
   std::optional<ReferenceCheck> check_;
   hm_motion motion_{};
   hm_driver driver_{};
-  hm_state state_{};
-  std::vector<double> position_, velocity_, acceleration_, predicted_, energy_change_, start_, weight_, bias_,
-      output_;
+  StepMemory memory_;
   std::vector<std::uint32_t> buffer_;
 };
 

@@ -159,7 +159,9 @@ std::string text_of(const Difference& d, const std::string& scene) {
 }
 
 std::string text_of(const LevelReport& r) {
-  std::string text = fmt::format("{}: {} sweeps, {} cycles\n", r.level, grouped(r.sweeps), grouped(r.cycles));
+  std::string text = fmt::format("{}: {} sweeps", r.level, grouped(r.sweeps));
+  if (r.cycles > 0) text += fmt::format(", {} cycles", grouped(r.cycles)); // the reference has none
+  text += "\n";
   if (r.distances.empty()) return text;
   text +=
       fmt::format("  each step against the reference's answer to the same step:\n"

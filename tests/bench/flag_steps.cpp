@@ -32,23 +32,7 @@ FlagSteps::FlagSteps(const scene::Scene& scene, const study::BuiltMesh& mesh, te
 }
 
 void FlagSteps::begin() {
-  const std::size_t neurons = mesh_.cells() * mesh_.components();
-  position_.clear();
-  for (const auto& x : mesh_.mesh().position) position_.insert(position_.end(), x.begin(), x.end());
-  velocity_.assign(position_.size(), 0.0);
-  acceleration_ = predicted_ = velocity_;
-  energy_change_.assign(mesh_.cells(), 0.0);
-  start_.assign(neurons, 0.0);
-  bias_ = output_ = start_;
-  weight_.assign(hm_weight_count(&mesh_.firmware()), 0.0);
-  state_ = hm_state{position_.data(),
-                    velocity_.data(),
-                    acceleration_.data(),
-                    predicted_.data(),
-                    energy_change_.data(),
-                    start_.data(),
-                    {weight_.data(), bias_.data(), output_.data()},
-                    0};
+  memory_.emplace(mesh_);
   sweeps_ = cycles_ = 0;
   if (hm_driver_open(&driver_, &bus_, &mesh_.firmware(), buffer_.data(),
                      static_cast<std::uint32_t>(buffer_.size())) != HM_OK)
@@ -61,7 +45,7 @@ void FlagSteps::advance() {
   const PartSeconds before = seconds_;
   const double began = processor_seconds();
   hm_step_result result;
-  if (hm_step(&mesh_.firmware(), &motion_, &solver, &state_, &result) != HM_OK)
+  if (hm_step(&mesh_.firmware(), &motion_, &solver, &memory_->state, &result) != HM_OK)
     throw std::runtime_error("the firmware could not do a step");
   const double relaxed =
       seconds_.array - before.array + seconds_.bus - before.bus + seconds_.driver - before.driver;
@@ -100,7 +84,7 @@ int FlagSteps::wait() {
 std::vector<std::int32_t> FlagSteps::start_raw() const {
   int clipped = 0;
   std::vector<std::int32_t> codes;
-  for (double v : start_) codes.push_back(hm_quantise(v, 0, &driver_.state, &clipped));
+  for (double v : memory_->start) codes.push_back(hm_quantise(v, 0, &driver_.state, &clipped));
   return codes;
 }
 

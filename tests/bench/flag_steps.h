@@ -2,10 +2,12 @@
 // taken.
 #pragma once
 
-#include "firmware/integrator.h"
+#include "firmware/driver.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/built_mesh.h"
+#include "sim/study/step_memory.h"
 #include "tests/support/dut.h"
+
+#include <optional>
 
 namespace hopmesh::bench {
 
@@ -44,9 +46,7 @@ class FlagSteps {
   const hm_motion motion_;
   hm_bus bus_{};
   hm_driver driver_{};
-  hm_state state_{};
-  std::vector<double> position_, velocity_, acceleration_, predicted_, energy_change_, start_, weight_, bias_,
-      output_;
+  std::optional<study::StepMemory> memory_; ///< anew at every begin()
   std::vector<std::uint32_t> buffer_;
   PartSeconds seconds_;
   std::uint64_t sweeps_ = 0, cycles_ = 0;

@@ -1,0 +1,22 @@
+#include "sim/study/step_memory.h"
+
+namespace hopmesh::study {
+
+StepMemory::StepMemory(const BuiltMesh& mesh) {
+  for (const auto& x : mesh.mesh().position) position.insert(position.end(), x.begin(), x.end());
+  velocity.assign(position.size(), 0.0);
+  acceleration = predicted = velocity;
+  energy_change.assign(mesh.cells(), 0.0);
+  start.assign(mesh.cells() * mesh.components(), 0.0);
+  bias = output = start;
+  weight.assign(hm_weight_count(&mesh.firmware()), 0.0);
+  state.position = position.data();
+  state.velocity = velocity.data();
+  state.acceleration = acceleration.data();
+  state.predicted = predicted.data();
+  state.energy_change = energy_change.data();
+  state.start = start.data();
+  state.network = {weight.data(), bias.data(), output.data()};
+}
+
+} // namespace hopmesh::study
