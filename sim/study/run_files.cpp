@@ -114,6 +114,8 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
   table_.commit();
   const std::string what = manifest(result);
   record::write_file(folder_ / "manifest.json", what);
+  record::write_file(folder_ / "stats.json",
+                     statistics(result, motion)); // kept if the pictures cannot be written
   auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
   record::write_glb(view, folder_ / "mesh.glb");
   view.tables = run_tables(facts_, mesh_, result, motion.ranges());
@@ -121,7 +123,7 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
     for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
       view.tables.push_back(table);
   record::write_report(view, folder_ / "report.html");
-  record::write_file(folder_ / "stats.json", statistics(result, motion)); // last: it knows the peak memory
+  record::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
 }
 
 std::string RunFiles::statistics(const RunResult& result, const Motion& motion) const {
