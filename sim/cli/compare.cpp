@@ -13,12 +13,13 @@ namespace {
 
 struct CompareOptions {
   CommonOptions common;
-  std::vector<std::string> levels{"reference", "systemc"};
+  std::vector<std::string> levels{"reference", "engine", "systemc"};
   std::int64_t steps = 0;
 };
 
 int compare(CompareOptions& o) {
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
+  for (const std::string& level : o.levels) check_level(level, "--levels");
   const Prepared p = prepare(o.common);
   std::stable_partition(o.levels.begin(), o.levels.end(), [](const auto& l) { return l == "reference"; });
   for (const std::string& level : o.levels)
@@ -29,7 +30,7 @@ int compare(CompareOptions& o) {
   const bool check = o.levels[0] == "reference";
   std::vector<Level> levels;
   std::vector<study::Contender> contenders;
-  for (const auto& name : o.levels) levels.push_back(make_level(name, p, check, {}, "--levels"));
+  for (const auto& name : o.levels) levels.push_back(make_level(name, p, check, {}));
   for (auto& level : levels)
     contenders.push_back({level.name, level.motion.get(), level.array, level.port.get()});
 
@@ -54,9 +55,10 @@ void add_compare(CLI::App& program, int& exit_code) {
   CLI::App* verb = program.add_subcommand(
       "compare", "levels beside each other: bits, cycles, error against the reference");
   add_common(*verb, o->common);
-  verb->add_option("--levels", o->levels, "two or more of reference, systemc, systemc-clock")->delimiter(',');
+  verb->add_option("--levels", o->levels, "two or more of reference, engine, systemc, systemc-clock")
+      ->delimiter(',');
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
-  verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,systemc,systemc-clock --steps 10\n"
+  verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,engine,systemc --steps 10\n"
                "Exit: 0 fixed levels are equal, 1 they differ or the motion diverged, 2 bad input.");
   verb->callback([o, &exit_code] { exit_code = compare(*o); });
 }

@@ -1,9 +1,11 @@
 #include "sim/cli/options.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "sim/cli/engine_port.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/systemc_port.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 
@@ -37,12 +39,32 @@ Prepared prepare(const CommonOptions& options) {
 }
 
 const std::vector<std::string>& level_names() {
-  static const std::vector<std::string> names{"reference", "systemc", "systemc-clock"};
+  static const std::vector<std::string> names{"reference", "engine", "systemc", "systemc-clock"};
   return names;
 }
 
-Level make_level(const std::string& name, const Prepared& p, bool check, const WaveRequest& wave,
-                 const std::string& flag) {
+namespace {
+
+std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const Prepared& p,
+                                            const PortRequest& request) {
+  const spec::ArraySpec& array = p.inputs.array;
+  const spec::Topology& topology = p.mesh->topology();
+  if (name == "engine") return std::make_unique<EnginePort>(array, topology, request.engine, stop_requested);
+  const auto waking = name == "systemc" ? systemc::Waking::by_phase : systemc::Waking::by_clock;
+  return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
+                                       request.wave, stop_requested);
+}
+
+} // namespace
+
+void check_level(const std::string& name, const std::string& flag) {
+  const auto& names = level_names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw scene::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
+                             scene::nearest_name(name, names));
+}
+
+Level make_level(const std::string& name, const Prepared& p, bool check, const PortRequest& request) {
   Level level;
   level.name = name;
   const spec::ArraySpec& array = p.inputs.array;
@@ -50,12 +72,7 @@ Level make_level(const std::string& name, const Prepared& p, bool check, const W
     level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array.schedule);
     return level;
   }
-  if (name != "systemc" && name != "systemc-clock")
-    throw scene::input_error("", 0, flag, name, fmt::format("{}", fmt::join(level_names(), ", ")),
-                             scene::nearest_name(name, level_names()));
-  const auto waking = name == "systemc" ? systemc::Waking::by_phase : systemc::Waking::by_clock;
-  level.port = std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, p.mesh->topology(),
-                                             waking, wave, stop_requested);
+  level.port = make_port(name, p, request);
   auto motion = std::make_unique<study::ArrayMotion>(p.inputs.scene, *p.mesh, array, *level.port, check);
   level.array = motion.get();
   level.motion = std::move(motion);

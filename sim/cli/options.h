@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/cli/wave.h"
+#include "sim/engine/engine.h"
 #include "sim/scene/scene_file.h"
 #include "sim/study/array_motion.h"
 #include "sim/study/reference_motion.h"
@@ -39,10 +40,17 @@ struct Level {
   study::ArrayMotion* array = nullptr;
 };
 
-/// Level names: reference, systemc, systemc-clock. Throws scene::InputError for any other.
+/// What a level's array may be asked beside its bits: a wave (SystemC), threads (engine).
+struct PortRequest {
+  WaveRequest wave;
+  engine::Options engine;
+};
+
+/// reference, engine, systemc, systemc-clock.
 const std::vector<std::string>& level_names();
-Level make_level(const std::string& name, const Prepared& prepared, bool check, const WaveRequest& wave,
-                 const std::string& flag);
+/// Throws scene::InputError for any other name; `flag` is where it stood.
+void check_level(const std::string& name, const std::string& flag);
+Level make_level(const std::string& name, const Prepared& prepared, bool check, const PortRequest& request);
 
 void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);

@@ -14,10 +14,10 @@ namespace {
 
 struct RunOptions {
   CommonOptions common;
-  std::string level = "systemc", out, wave_window, wave_cells;
+  std::string level = "engine", out, wave_window, wave_cells;
   WaveRequest wave;
-  std::int64_t steps = 0;
-  bool no_check = false;
+  std::int64_t steps = 0, threads = 0;
+  bool check = false, no_check = false;
 };
 
 std::string shell_word(const std::string& word) {
@@ -56,12 +56,19 @@ WaveRequest wave_of(const RunOptions& o) {
   return wave;
 }
 
+// The engine is for speed and has judges of its own; the reference beside every step costs many times its
+// time.
+bool asks_reference(const RunOptions& o) {
+  return o.check || (o.level != "engine" && !o.no_check);
+}
+
 int run(RunOptions& o) {
-  const WaveRequest wave = wave_of(o);
+  check_level(o.level, "--level");
+  const PortRequest request{wave_of(o), {static_cast<std::size_t>(o.threads)}};
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   const Prepared p = prepare(o.common);
   if (o.steps > 0) o.common.overrides.pop_back();
-  Level level = make_level(o.level, p, !o.no_check, wave, "--level");
+  Level level = make_level(o.level, p, asks_reference(o), request);
   const study::RunFacts facts{p.inputs, o.level, level.array != nullptr, command_of(o)};
   const std::filesystem::path folder = o.out.empty() ? default_folder(p.inputs.scene.name) : o.out;
   study::RunFiles files(folder, facts, *p.mesh, *level.motion);
@@ -93,11 +100,15 @@ void add_run(CLI::App& program, int& exit_code) {
   CLI::App* verb = program.add_subcommand("run", "one simulation");
   add_common(*verb, o->common);
   verb->add_option("--level", o->level,
-                   "reference | systemc | systemc-clock (every neuron woken at every clock)")
+                   "reference | engine | systemc | systemc-clock (every neuron woken at every clock)")
       ->capture_default_str();
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
-  verb->add_flag("--no-check", o->no_check, "do not ask the double reference beside every step");
+  auto* check = verb->add_flag("--check", o->check,
+                               "ask the double reference beside every step (as all levels but engine do)");
+  verb->add_flag("--no-check", o->no_check, "do not ask it")->excludes(check);
+  verb->add_option("-j", o->threads, "threads of the engine; changes no result (0: as many as help)")
+      ->check(CLI::Range(0, 256));
   verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");
   verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
   verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");

@@ -20,7 +20,7 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/scene", {"rtl_model/spec"}},
     {"sim/reference", {"sim/scene"}},
     {"sim/rivals", {"sim/scene"}},
-    {"sim/engine", {"rtl_model/spec"}},
+    {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h"}},
     {"sim/record", {}},
     {"sim/study", {"rtl_model/spec", "firmware", "sim/scene", "sim/reference", "sim/record"}},
     {"sim/cli",

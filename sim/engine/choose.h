@@ -1,0 +1,22 @@
+// Which core computes an array, on how many threads, and how far sweeps follow each other: what helps on this
+// processor and this mesh. None of it changes a bit.
+#pragma once
+
+#include "sim/engine/core.h"
+
+#include <string>
+
+namespace hopmesh::engine {
+
+/// "auto", then every core by name, whether or not this processor has what it needs.
+const std::vector<std::string>& kernel_names();
+/// Throws std::invalid_argument for a name that is none, or that this processor or this array cannot have.
+std::unique_ptr<Core> make_core(const Plan& plan, const Layout& layout, const std::string& name);
+
+/// `asked`: 0 for what helps.
+std::size_t threads_for(const spec::Topology& topology, std::size_t asked);
+/// For Layout: 0 where one chunk is best.
+std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t followed);
+std::size_t sweeps_to_follow(std::size_t asked);
+
+} // namespace hopmesh::engine

@@ -1,0 +1,55 @@
+// The engine behind the array's bus: registers, windows and interrupt line as docs/registers.md says, so that
+// firmware cannot tell which level answers.
+#pragma once
+
+#include "firmware/bus.h"
+#include "sim/engine/engine.h"
+
+#include <array>
+
+namespace hopmesh::engine {
+
+/// Time passes while the host waits: a run that was started is computed by the next wait().
+class Device {
+ public:
+  /// `stop` ends a wait between two sweeps (HM_ERROR_STOPPED); the run goes on with the next one.
+  Device(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options,
+         const std::atomic<bool>& stop);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const hm_bus& bus() const { return bus_; }
+  bool irq() const;
+  Engine& engine() { return engine_; }
+  const Engine& engine() const { return engine_; }
+
+ private:
+  enum class Memory { first_link, link, bias, output, weight };
+  struct Place {
+    Memory memory;
+    std::size_t index, words; ///< word addressed, and how many the window has
+  };
+
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count);
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
+  int wait();
+  bool find(std::uint32_t address, std::uint32_t count, Place& place) const;
+  void hold_bus(std::uint32_t words);
+  std::uint32_t& reg(std::uint32_t offset) { return registers_[offset / 4]; }
+  std::uint32_t reg(std::uint32_t offset) const { return registers_[offset / 4]; }
+  bool busy() const;
+  void set_capabilities();
+  int write_register(std::uint32_t offset, std::uint32_t word);
+  void control(std::uint32_t word);
+  void reset();
+  void finish();
+
+  Engine engine_;
+  const std::atomic<bool>& stop_;
+  std::array<std::uint32_t, 64> registers_{}; ///< by offset / 4
+  std::uint64_t bus_cycles_ = 0;
+  bool begun_ = false; ///< the run at hand has been prepared
+  hm_bus bus_{};
+};
+
+} // namespace hopmesh::engine

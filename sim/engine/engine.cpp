@@ -1,0 +1,112 @@
+#include "sim/engine/engine.h"
+
+#include "sim/engine/choose.h"
+#include "sim/engine/rounding.h"
+
+namespace hopmesh::engine {
+
+Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options)
+    : array_(array), topology_(topology), phases_of_sweep_(spec::phases_of(topology, array.schedule)),
+      cycles_(spec::cycle_model(array, topology, phases_of_sweep_)), plan_(array, topology),
+      layout_(topology, phases_of_sweep_, array.schedule,
+              chunk_cells(topology, array.schedule, options.followed)),
+      core_(make_core(plan_, layout_, options.kernel)),
+      sweeper_(*core_, layout_, array.schedule, threads_for(topology, options.threads),
+               sweeps_to_follow(options.followed)) {}
+
+std::pair<std::size_t, std::size_t> Engine::place(std::size_t neuron) const {
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  return {layout_.slot_of_cell[neuron / per_cell], neuron % per_cell};
+}
+
+// Calls visit(slot, p, first tap, words) for each piece of a row in [first, first + count).
+template <typename Visit> void Engine::walk_rows(std::size_t first, std::size_t count, Visit visit) const {
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  std::size_t cell = 0, high = topology_.cells(); // the last cell whose rows begin at or before `first`
+  while (high - cell > 1) {
+    const std::size_t middle = (cell + high) / 2;
+    (topology_.row_offset(middle, 0) <= first ? cell : high) = middle;
+  }
+  const std::size_t within = first - topology_.row_offset(cell, 0);
+  std::size_t taps = topology_.taps(cell), p = within / taps, tap = within % taps;
+  while (count > 0) {
+    const std::size_t piece = std::min(count, taps - tap);
+    visit(layout_.slot_of_cell[cell], p, tap, piece);
+    count -= piece;
+    tap = 0;
+    if (++p < per_cell || count == 0) continue;
+    p = 0;
+    taps = topology_.taps(++cell);
+  }
+}
+
+void Engine::write_weights(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  std::vector<std::int32_t> codes(plan_.most_taps);
+  walk_rows(first, count, [&](std::size_t slot, std::size_t p, std::size_t tap, std::size_t piece) {
+    for (std::size_t k = 0; k < piece; ++k) codes[k] = kept_bits(words[k], plan_.formats.weight);
+    core_->put_weights(slot, p, tap, codes.data(), piece);
+    words += piece;
+  });
+}
+
+void Engine::read_weights(std::size_t first, std::uint32_t* words, std::size_t count) const {
+  walk_rows(first, count, [&](std::size_t slot, std::size_t p, std::size_t tap, std::size_t piece) {
+    for (std::size_t k = 0; k < piece; ++k)
+      *words++ = static_cast<std::uint32_t>(core_->weight(slot, p, tap + k));
+  });
+}
+
+void Engine::write_biases(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [slot, p] = place(first + k);
+    core_->put_bias(slot, p, kept_bits(words[k], plan_.formats.bias));
+  }
+}
+
+void Engine::read_biases(std::size_t first, std::uint32_t* words, std::size_t count) const {
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [slot, p] = place(first + k);
+    words[k] = static_cast<std::uint32_t>(core_->bias(slot, p));
+  }
+}
+
+void Engine::write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  const auto one = static_cast<std::int32_t>(plan_.one_state);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [slot, p] = place(first + k);
+    core_->put_state(slot, p, std::min(std::max(kept_bits(words[k], plan_.formats.state), -one), one));
+  }
+}
+
+void Engine::read_outputs(std::size_t first, std::uint32_t* words, std::size_t count) const {
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [slot, p] = place(first + k);
+    words[k] = static_cast<std::uint32_t>(core_->state(slot, p));
+  }
+}
+
+void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+  threshold_ = threshold;
+  max_sweeps_ = std::max(max_sweeps, 1u);
+  result_ = {};
+  sweeper_.prepare();
+}
+
+bool Engine::advance(const std::atomic<bool>& stop) {
+  Swept swept;
+  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, swept);
+  extremes_.merge(swept.extremes);
+  result_.largest_change = static_cast<std::uint32_t>(swept.largest_change);
+  result_.converged = swept.largest_change <= threshold_;
+  result_.cycles = cycles_.run(result_.sweeps);
+  return result_.converged || result_.sweeps == max_sweeps_;
+}
+
+RunResult Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+  static const std::atomic<bool> never{false};
+  begin_run(threshold, max_sweeps);
+  advance(never);
+  return result_;
+}
+
+} // namespace hopmesh::engine

@@ -1,0 +1,78 @@
+// The array without an event kernel: every bit by loops over blocks of cells, every cycle by formula.
+// docs/engine.md walks through it.
+#pragma once
+
+#include "sim/engine/sweeper.h"
+
+#include <string>
+
+namespace hopmesh::engine {
+
+struct Options {
+  std::size_t threads = 0;     ///< 0: as many as help on this mesh and machine; never changes a bit
+  std::string kernel = "auto"; ///< or a name of kernel_names()
+  std::size_t followed = 0;    ///< sweeps that follow each other through the mesh; 0: as helps; 1: plain
+};
+
+/// A run from START taken to DONE.
+struct RunResult {
+  std::uint32_t sweeps = 0;
+  bool converged = false;
+  std::uint32_t largest_change = 0; ///< of the last sweep, raw code of the state
+  std::uint64_t cycles = 0;
+};
+
+/// One array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
+class Engine {
+ public:
+  /// The array must have passed spec::validate for the topology. Throws std::invalid_argument for a kernel
+  /// that does not exist, or that this processor or this array cannot have.
+  Engine(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options = {});
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  const spec::ArraySpec& array() const { return array_; }
+  const spec::Topology& topology() const { return topology_; }
+  const spec::CycleModel& cycles() const { return cycles_; }
+  std::size_t phases() const { return cycles_.phase.size(); }
+
+  // Memories as words on the bus: cut to their formats as they are written, outputs held within [-1, 1].
+  void write_weights(std::size_t first, const std::uint32_t* words, std::size_t count);
+  void write_biases(std::size_t first, const std::uint32_t* words, std::size_t count);
+  void write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count);
+  void read_weights(std::size_t first, std::uint32_t* words, std::size_t count) const;
+  void read_biases(std::size_t first, std::uint32_t* words, std::size_t count) const;
+  void read_outputs(std::size_t first, std::uint32_t* words, std::size_t count) const;
+
+  /// Prepares a run; `advance` then goes on until it is over, or until `stop` says so between two sweeps:
+  /// true when over. A run that was stopped goes on where it was.
+  void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  bool advance(const std::atomic<bool>& stop);
+  /// Both, without a stop.
+  RunResult run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  const RunResult& result() const { return result_; }
+
+  /// Of s and u, over all runs.
+  const Extremes& extremes() const { return extremes_; }
+  const char* kernel() const { return core_->name(); }
+  std::size_t threads() const { return sweeper_.threads(); }
+  std::size_t bytes_per_sweep() const { return core_->bytes_per_sweep(); }
+
+ private:
+  template <typename Visit> void walk_rows(std::size_t first, std::size_t count, Visit visit) const;
+  std::pair<std::size_t, std::size_t> place(std::size_t neuron) const;
+
+  const spec::ArraySpec array_;
+  const spec::Topology topology_;
+  const spec::Phases phases_of_sweep_;
+  const spec::CycleModel cycles_;
+  const Plan plan_;
+  const Layout layout_;
+  std::unique_ptr<Core> core_;
+  Sweeper sweeper_;
+  std::uint32_t threshold_ = 0, max_sweeps_ = 1;
+  RunResult result_;
+  Extremes extremes_;
+};
+
+} // namespace hopmesh::engine

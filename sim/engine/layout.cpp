@@ -1,0 +1,90 @@
+#include "sim/engine/layout.h"
+
+namespace hopmesh::engine {
+
+namespace {
+
+// Every cell fires after its neighbours of lower number and before those of higher number; cells of one level
+// are never linked.
+std::vector<std::uint32_t> levels(const spec::Topology& t) {
+  std::vector<std::uint32_t> level(t.cells(), 0);
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1] && t.link_to[k] < c; ++k)
+      level[c] = std::max(level[c], level[t.link_to[k]] + 1);
+  return level;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> groups_of_cells(const spec::Topology& t, const spec::Phases& phases,
+                                           spec::Schedule schedule) {
+  if (schedule == spec::Schedule::sequential) return levels(t);
+  std::vector<std::uint32_t> group(t.cells(), 0);
+  if (schedule == spec::Schedule::synchronous) return group;
+  for (std::size_t k = 0; k < phases.size(); ++k)
+    for (std::uint32_t neuron : phases[k])
+      group[neuron / t.neurons_per_cell] = static_cast<std::uint32_t>(k / t.neurons_per_cell);
+  return group;
+}
+
+std::size_t link_reach(const spec::Topology& t) {
+  std::size_t reach = 0;
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k)
+      reach = std::max<std::size_t>(reach, t.link_to[k] > c ? t.link_to[k] - c : c - t.link_to[k]);
+  return reach;
+}
+
+Layout::Layout(const spec::Topology& t, const spec::Phases& phases, spec::Schedule schedule,
+               std::size_t chunk_cells) {
+  const auto group = groups_of_cells(t, phases, schedule);
+  for (std::uint32_t g : group) groups = std::max<std::size_t>(groups, g + 1);
+  if (chunk_cells == 0)
+    chunk_cells = std::max<std::size_t>(t.cells(), 1);
+  else
+    chunk_cells = std::max(chunk_cells, link_reach(t));
+  place(group, chunk_cells);
+  find_sources(t);
+}
+
+void Layout::place(const std::vector<std::uint32_t>& group, std::size_t chunk_cells) {
+  const std::size_t cells = group.size();
+  chunks = (cells + chunk_cells - 1) / chunk_cells;
+  slot_of_cell.resize(cells);
+  first_block.assign(1, 0);
+  std::vector<std::vector<std::uint32_t>> members(groups);
+  for (std::size_t r = 0; r < chunks; ++r) {
+    for (auto& list : members) list.clear();
+    for (std::size_t c = r * chunk_cells; c < std::min(cells, (r + 1) * chunk_cells); ++c)
+      members[group[c]].push_back(static_cast<std::uint32_t>(c));
+    for (const auto& list : members) {
+      for (std::uint32_t c : list) {
+        slot_of_cell[c] = static_cast<std::uint32_t>(cell_of_slot.size());
+        cell_of_slot.push_back(c);
+      }
+      cell_of_slot.resize((cell_of_slot.size() + block_lanes - 1) / block_lanes * block_lanes, no_cell);
+      first_block.push_back(static_cast<std::uint32_t>(cell_of_slot.size() / block_lanes));
+    }
+  }
+}
+
+void Layout::find_sources(const spec::Topology& t) {
+  neighbours.assign(cell_of_slot.size() / block_lanes, 0);
+  for (std::size_t slot = 0; slot < cell_of_slot.size(); ++slot)
+    if (cell_of_slot[slot] != no_cell)
+      neighbours[slot / block_lanes] =
+          std::max(neighbours[slot / block_lanes], static_cast<std::uint32_t>(t.degree(cell_of_slot[slot])));
+  first_source.assign(1, 0);
+  for (std::uint32_t n : neighbours)
+    first_source.push_back(first_source.back() + n * static_cast<std::uint32_t>(block_lanes));
+  source.resize(first_source.back());
+  for (std::size_t slot = 0; slot < cell_of_slot.size(); ++slot) {
+    const std::uint32_t cell = cell_of_slot[slot];
+    const std::size_t block = slot / block_lanes, degree = cell == no_cell ? 0 : t.degree(cell);
+    std::uint32_t* at = &source[first_source[block] + slot % block_lanes];
+    for (std::size_t k = 0; k < neighbours[block]; ++k, at += block_lanes)
+      *at = k < degree ? slot_of_cell[t.link_to[t.first_link[cell] + k]] : static_cast<std::uint32_t>(slot);
+  }
+}
+
+} // namespace hopmesh::engine

@@ -1,0 +1,118 @@
+#include "sim/engine/sweeper.h"
+
+namespace hopmesh::engine {
+
+namespace {
+
+struct Range {
+  std::size_t first, last;
+};
+
+/// The part of [first, last) that one member of a team takes.
+Range part(std::size_t first, std::size_t last, std::size_t member, std::size_t members) {
+  const std::size_t count = last - first;
+  return {first + count * member / members, first + count * (member + 1) / members};
+}
+
+} // namespace
+
+Sweeper::Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
+                 std::size_t followed)
+    : core_(core), layout_(layout),
+      followed_(layout.chunks > 1 && threads == 1 && schedule != spec::Schedule::synchronous ? followed : 1),
+      team_(threads) {}
+
+void Sweeper::prepare() {
+  team_.run([&](std::size_t member) {
+    const Range blocks = part(0, layout_.blocks(), member, team_.size());
+    core_.prepare(blocks.first, blocks.last);
+  });
+  core_.begin_run();
+}
+
+// One chunk: the group's blocks are shared out. Several: each member keeps to its own chunks.
+void Sweeper::fire_group(std::size_t group, std::size_t member, Swept& swept) {
+  const bool whole = layout_.chunks > 1;
+  const Range chunks = whole ? part(0, layout_.chunks, member, team_.size()) : Range{0, layout_.chunks};
+  for (std::size_t r = chunks.first; r < chunks.last; ++r) {
+    const std::size_t at = r * layout_.groups + group;
+    const Range all{layout_.first_block[at], layout_.first_block[at + 1]};
+    const Range mine = whole ? all : part(all.first, all.last, member, team_.size());
+    core_.fire(mine.first, mine.last, swept);
+  }
+}
+
+std::uint32_t Sweeper::relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
+                             Swept& swept) {
+  return followed_ > 1 ? relax_following(threshold, limit, stop, swept)
+                       : relax_plainly(threshold, limit, stop, swept);
+}
+
+std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limit,
+                                     const std::atomic<bool>& stop, Swept& swept) {
+  struct alignas(128) Own {
+    Swept swept;
+  };
+  std::vector<Own> own(team_.size());
+  std::uint32_t done = 0;
+  bool over = false;
+  team_.run([&](std::size_t member) {
+    while (!over) {
+      own[member].swept.largest_change = 0;
+      for (std::size_t g = 0; g < layout_.groups; ++g) {
+        fire_group(g, member, own[member].swept);
+        team_.barrier();
+      }
+      if (member == 0) {
+        core_.end_sweep();
+        swept.largest_change = 0;
+        for (const Own& o : own)
+          swept.largest_change = std::max(swept.largest_change, o.swept.largest_change);
+        done += 1;
+        over = swept.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed);
+      }
+      team_.barrier();
+    }
+  });
+  for (const Own& o : own) swept.extremes.merge(o.swept.extremes);
+  return done;
+}
+
+// Stage k = sweep * groups + group comes to a chunk when stage k - 1 has left the chunk behind it; then a
+// link, which reaches no further, meets every neighbour exactly as plain sweeps would.
+void Sweeper::follow(std::size_t sweeps, std::vector<Swept>& swept) {
+  const std::size_t stages = sweeps * layout_.groups;
+  for (std::size_t wave = 0; wave < layout_.chunks + stages - 1; ++wave)
+    for (std::size_t k = 0; k < stages && k <= wave; ++k) {
+      const std::size_t chunk = wave - k;
+      if (chunk >= layout_.chunks) continue;
+      const std::size_t at = chunk * layout_.groups + k % layout_.groups;
+      core_.fire(layout_.first_block[at], layout_.first_block[at + 1], swept[k / layout_.groups]);
+    }
+}
+
+// The sweep that ends the run is known only when all that follow it have begun: then back, and exactly so
+// far.
+std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t limit,
+                                       const std::atomic<bool>& stop, Swept& swept) {
+  std::uint32_t done = 0;
+  while (true) {
+    const std::size_t count = std::min<std::size_t>(followed_, limit - done);
+    std::vector<Swept> each(count);
+    core_.keep_outputs();
+    follow(count, each);
+    std::size_t needed = 1;
+    while (needed < count && each[needed - 1].largest_change > threshold) ++needed;
+    if (needed < count) {
+      core_.restore_outputs();
+      follow(needed, each);
+    }
+    for (std::size_t k = 0; k < needed; ++k) swept.extremes.merge(each[k].extremes);
+    swept.largest_change = each[needed - 1].largest_change;
+    done += static_cast<std::uint32_t>(needed);
+    if (swept.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
+      return done;
+  }
+}
+
+} // namespace hopmesh::engine

@@ -1,0 +1,39 @@
+// The order in which blocks fire: group by group, on one thread or several; or several sweeps following each
+// other through the mesh, so that a network larger than a cache is read once for all of them.
+#pragma once
+
+#include "sim/engine/core.h"
+#include "sim/engine/team.h"
+
+namespace hopmesh::engine {
+
+class Sweeper {
+ public:
+  /// `followed`: sweeps that follow each other; needs a layout of several chunks, one thread, no synchronous
+  /// schedule, and is 1 otherwise.
+  Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
+          std::size_t followed);
+
+  std::size_t threads() const { return team_.size(); }
+
+  void prepare();
+  /// Sweeps until one changes no output by more than `threshold`, or `limit` sweeps are done, or `stop`.
+  /// Returns how many were done; `swept` holds the last one's largest change and the swings of all.
+  std::uint32_t relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
+                      Swept& swept);
+
+ private:
+  std::uint32_t relax_plainly(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
+                              Swept& swept);
+  std::uint32_t relax_following(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
+                                Swept& swept);
+  void fire_group(std::size_t group, std::size_t member, Swept& swept);
+  void follow(std::size_t sweeps, std::vector<Swept>& swept);
+
+  Core& core_;
+  const Layout& layout_;
+  std::size_t followed_;
+  Team team_;
+};
+
+} // namespace hopmesh::engine
