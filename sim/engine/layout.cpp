@@ -70,20 +70,22 @@ void Layout::place(const std::vector<std::uint32_t>& group, std::size_t chunk_ce
 
 void Layout::find_sources(const spec::Topology& t) {
   neighbours.assign(cell_of_slot.size() / block_lanes, 0);
-  for (std::size_t slot = 0; slot < cell_of_slot.size(); ++slot)
-    if (cell_of_slot[slot] != no_cell)
-      neighbours[slot / block_lanes] =
-          std::max(neighbours[slot / block_lanes], static_cast<std::uint32_t>(t.degree(cell_of_slot[slot])));
+  for (std::uint32_t cell : cell_of_slot) {
+    degree.push_back(cell == no_cell ? 0 : static_cast<std::uint32_t>(t.degree(cell)));
+    std::uint32_t& most = neighbours[(degree.size() - 1) / block_lanes];
+    most = std::max(most, degree.back());
+  }
   first_source.assign(1, 0);
   for (std::uint32_t n : neighbours)
     first_source.push_back(first_source.back() + n * static_cast<std::uint32_t>(block_lanes));
   source.resize(first_source.back());
   for (std::size_t slot = 0; slot < cell_of_slot.size(); ++slot) {
     const std::uint32_t cell = cell_of_slot[slot];
-    const std::size_t block = slot / block_lanes, degree = cell == no_cell ? 0 : t.degree(cell);
+    const std::size_t block = slot / block_lanes;
     std::uint32_t* at = &source[first_source[block] + slot % block_lanes];
     for (std::size_t k = 0; k < neighbours[block]; ++k, at += block_lanes)
-      *at = k < degree ? slot_of_cell[t.link_to[t.first_link[cell] + k]] : static_cast<std::uint32_t>(slot);
+      *at = k < degree[slot] ? slot_of_cell[t.link_to[t.first_link[cell] + k]]
+                             : static_cast<std::uint32_t>(slot);
   }
 }
 

@@ -25,6 +25,7 @@ struct Layout {
   std::vector<std::uint32_t> slot_of_cell; ///< slot = block * block_lanes + lane
   std::vector<std::uint32_t> cell_of_slot; ///< or no_cell
   std::vector<std::uint32_t> first_block;  ///< of chunk r, group g: [r * groups + g]; one more at the end
+  std::vector<std::uint32_t> degree;       ///< neighbours of a slot's cell
   /// Most neighbours of a cell of the block. Lanes with fewer have their own slot as source there.
   std::vector<std::uint32_t> neighbours;
   std::vector<std::uint32_t> first_source; ///< of a block in `source`; one more at the end

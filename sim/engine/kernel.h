@@ -1,0 +1,80 @@
+// What the fast core hands to its kernels, and the kernels that there are. A kernel fires blocks of sixteen
+// cells whose weights and links have at most 16 bits; the same source (kernel_body.h) is compiled for several
+// instruction sets, and the processor at hand decides at run time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hopmesh::engine {
+
+/// Where sixteen lanes find a neighbour's outputs: side by side from `base` on; at most 31 slots from `base`
+/// (`lane`); or anywhere (`base` counts in KernelArgs::far_slot).
+struct Source {
+  enum Kind : std::uint32_t { together, near, far };
+  std::uint32_t base;
+  Kind kind;
+  std::uint8_t lane[16];
+};
+
+/// x * 2^-places rounded: add, plus what a negative x and an odd result get, then a floor.
+struct KernelRounding {
+  std::int64_t add = 0, add_if_negative = 0, add_if_odd = 0;
+  int places = 0;
+  bool plain() const { return add_if_negative == 0 && add_if_odd == 0; }
+};
+
+/// A quotient as a floor of doubles: the sign is turned (flip) before and after, and `half` added between.
+struct KernelDivision {
+  std::int64_t flip_by_sign = 0, flip_always = 0; ///< 0 or -1
+  double half = 0;
+  int ratio_up = 0;
+};
+
+struct KernelArgs {
+  const std::uint32_t* neighbours;   ///< of a block; even where a cell has three neurons
+  const std::size_t* first_weight;   ///< of a block, in `weight`
+  const std::uint32_t* first_source; ///< of a block, in `source`
+  const Source* source;
+  const std::uint32_t* far_slot;
+  /// Pairs of 16-bit codes in sixteen lanes. A row: own x and y; x and y of each neighbour; z of two
+  /// neighbours; own z beside a zero. (Two neurons a cell: no z.)
+  const std::uint32_t* weight;
+  const std::int32_t* bias;       ///< [block][p][lane], and so all below
+  const std::int64_t* multiplier; ///< reciprocal, all with one point; or 1 / N as a double's bits
+  std::int32_t* state;
+  /// Links by slot: x and y in one word; z in both halves of another.
+  const std::uint32_t *xy, *zz;
+  std::uint32_t *next_xy, *next_zz; ///< the same, but in synchronous arrays
+  bool synchronous;
+  int bias_up, state_fraction;
+  std::int64_t one_drive;
+  KernelRounding drive, state_rounding, link;
+  KernelDivision division;
+};
+
+/// Running swings; the kernel widens them.
+struct KernelSwings {
+  std::int64_t largest_change, least_sum, largest_sum, least_drive, largest_drive;
+};
+
+using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,
+                            KernelSwings& swings);
+/// Sum of |weight| of every row of a block: [p][lane].
+using RowKernel = void (*)(const KernelArgs& args, std::size_t block, std::uint32_t* sums);
+
+enum class Normalise : std::uint8_t { multiply, scale, divide };
+
+/// All kernels of one instruction set: [neurons a cell - 2][Normalise][plain rounding][wide sums].
+struct KernelSet {
+  const char* name;
+  FireKernel fire[2][3][2][2];
+  RowKernel rows[2];
+};
+
+extern const KernelSet portable_kernels;
+#ifdef HOPMESH_X86_KERNELS
+extern const KernelSet avx2_kernels, avx512_kernels;
+#endif
+
+} // namespace hopmesh::engine
