@@ -2,6 +2,7 @@
 // generic_core (any array) and fast_core (16-bit weights and links in wide registers).
 #pragma once
 
+#include "sim/engine/kernel.h"
 #include "sim/engine/layout.h"
 #include "sim/engine/plan.h"
 
@@ -21,10 +22,23 @@ struct Extremes {
   }
 };
 
-/// What some blocks leave behind: the largest |Delta V| as raw code, and the swings.
+/// What fired blocks leave behind, in either form: a kernel's lanes, or the largest |Delta V| and the swings
+/// themselves.
 struct Swept {
-  std::int64_t largest_change = 0;
+  KernelSwings swings;
+  std::int64_t largest = 0;
   Extremes extremes;
+
+  std::int64_t largest_change() const {
+    std::int64_t most = largest;
+    for (std::uint32_t change : swings.largest_change) most = std::max<std::int64_t>(most, change);
+    return most;
+  }
+  void begin_sweep() {
+    largest = 0;
+    std::fill(std::begin(swings.largest_change), std::end(swings.largest_change), 0u);
+  }
+  Extremes all_extremes() const;
 };
 
 /// Codes are those that the array's memories hold: in range, |V| <= 1. A slot is a cell's place in the

@@ -93,11 +93,11 @@ void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps) {
 }
 
 bool Engine::advance(const std::atomic<bool>& stop) {
-  Swept swept;
-  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, swept);
-  extremes_.merge(swept.extremes);
-  result_.largest_change = static_cast<std::uint32_t>(swept.largest_change);
-  result_.converged = swept.largest_change <= threshold_;
+  Relaxed relaxed;
+  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, relaxed);
+  extremes_.merge(relaxed.extremes);
+  result_.largest_change = static_cast<std::uint32_t>(relaxed.largest_change);
+  result_.converged = relaxed.largest_change <= threshold_;
   result_.cycles = cycles_.run(result_.sweeps);
   return result_.converged || result_.sweeps == max_sweeps_;
 }

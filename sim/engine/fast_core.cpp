@@ -145,10 +145,7 @@ class FastCore : public Core {
   void prepare(std::size_t first, std::size_t last) override;
   void begin_run() override;
   void fire(std::size_t first, std::size_t last, Swept& swept) override {
-    Extremes& x = swept.extremes;
-    KernelSwings s{swept.largest_change, x.least_sum, x.largest_sum, x.least_drive, x.largest_drive};
-    fire_(args_, first, last, s);
-    swept = {s.largest_change, {s.least_sum, s.largest_sum, s.least_drive, s.largest_drive}};
+    fire_(args_, first, last, swept.swings);
   }
   void end_sweep() override {
     if (!synchronous()) return;
@@ -184,7 +181,7 @@ class FastCore : public Core {
   }
   std::int16_t* weight_row(std::size_t slot, std::size_t p) {
     const std::size_t block = slot / L;
-    std::uint32_t* row = &weight_[first_weight_[block] + p * pairs(neighbours_[block]) * L + slot % L];
+    std::uint32_t* row = &weight_[first_weight_[block] + p * L + slot % L];
     return reinterpret_cast<std::int16_t*>(row);
   }
   std::size_t tap_place(std::size_t slot, std::size_t tap) const {
@@ -231,14 +228,15 @@ void FastCore::lay_out_weights() {
     if (tap_place_.size() <= even) tap_place_.resize(even + 1);
     auto& place = tap_place_[even];
     if (!place.empty()) continue;
-    const auto code = [](std::size_t pair, std::size_t half) {
-      return static_cast<std::uint32_t>(2 * L * pair + half);
+    const auto code = [&](std::size_t pair, std::size_t half) {
+      return static_cast<std::uint32_t>(2 * L * per_cell_ * pair + half);
     };
-    for (std::size_t source = 0; source <= even; ++source)
+    const bool with_z = per_cell_ == 3;
+    for (std::size_t q = 0; q < per_cell_; ++q)
+      place.push_back(q < 2 ? code(pairs(even) - 1, q) : code(pairs(even) - 2, 0));
+    for (std::size_t k = 0; k < even; ++k)
       for (std::size_t q = 0; q < per_cell_; ++q)
-        place.push_back(q < 2         ? code(source, q)
-                        : source == 0 ? code(pairs(even) - 1, 0)
-                                      : code(1 + even + (source - 1) / 2, (source - 1) % 2));
+        place.push_back(q == 2 ? code(k / 2 * 3 + 2, k % 2) : code(with_z ? k / 2 * 3 + k % 2 : k, q));
   }
 }
 
@@ -296,8 +294,10 @@ void FastCore::add_source(std::size_t block, std::size_t column) {
     s.base = slots[first_real] - static_cast<std::uint32_t>(first_real);
   } else if (first_real < L && high - low < 2 * L) {
     s.kind = Source::near;
-    s.base = low;
-    for (std::size_t l = 0; l < L; ++l) s.lane[l] = static_cast<std::uint8_t>(real[l] ? slots[l] - low : 0);
+    const std::uint32_t line = low / L * L; // a load that straddles cache lines costs two
+    s.base = high - line < 2 * L ? line : low;
+    for (std::size_t l = 0; l < L; ++l)
+      s.lane[l] = static_cast<std::uint8_t>(real[l] ? slots[l] - s.base : 0);
   } else if (first_real < L) {
     s.kind = Source::far;
     s.base = static_cast<std::uint32_t>(far_slot_.size());

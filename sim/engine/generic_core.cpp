@@ -191,7 +191,7 @@ class GenericCore : public Core {
     const std::int64_t change =
         round_shift(R * u, plan_.formats.drive.fraction_bits(), plan_.formats.state.rounding);
     state_[at] = static_cast<std::int32_t>(V + change);
-    swept.largest_change = std::max(swept.largest_change, change < 0 ? -change : change);
+    swept.largest = std::max(swept.largest, change < 0 ? -change : change);
     swept.extremes.merge({sum, sum, u, u});
   }
 
@@ -220,6 +220,13 @@ class GenericCore : public Core {
 };
 
 } // namespace
+
+Extremes Swept::all_extremes() const {
+  Extremes all = extremes;
+  for (std::size_t l = 0; l < 8; ++l)
+    all.merge({swings.least_sum[l], swings.largest_sum[l], swings.least_drive[l], swings.largest_drive[l]});
+  return all;
+}
 
 std::unique_ptr<Core> make_generic_core(const Plan& plan, const Layout& layout) {
   return std::make_unique<GenericCore>(plan, layout);

@@ -37,8 +37,9 @@ struct KernelArgs {
   const std::uint32_t* first_source; ///< of a block, in `source`
   const Source* source;
   const std::uint32_t* far_slot;
-  /// Pairs of 16-bit codes in sixteen lanes. A row: own x and y; x and y of each neighbour; z of two
-  /// neighbours; own z beside a zero. (Two neurons a cell: no z.)
+  /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
+  /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own
+  /// x and y. Two: x and y of each neighbour, then own. Each pair first for neuron 0, then for 1, then for 2.
   const std::uint32_t* weight;
   const std::int32_t* bias;       ///< [block][p][lane], and so all below
   const std::int64_t* multiplier; ///< reciprocal, all with one point; or 1 / N as a double's bits
@@ -53,9 +54,10 @@ struct KernelArgs {
   KernelDivision division;
 };
 
-/// Running swings; the kernel widens them.
-struct KernelSwings {
-  std::int64_t largest_change, least_sum, largest_sum, least_drive, largest_drive;
+/// Running extremes, lane by lane; the kernel widens them. |Delta V| is unsigned: it may be 2^31.
+struct alignas(64) KernelSwings {
+  std::uint32_t largest_change[16] = {};
+  std::int64_t least_sum[8] = {}, largest_sum[8] = {}, least_drive[8] = {}, largest_drive[8] = {};
 };
 
 using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,

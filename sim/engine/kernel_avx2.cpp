@@ -35,6 +35,13 @@ struct Avx2 {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(at + 8), x.half[1]);
   }
   static Longs load(const std::int64_t* at) { return {{load_half(at), load_half(at + 4)}}; }
+  static void store(std::int64_t* at, const Longs& x) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), x.half[0]);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at + 4), x.half[1]);
+  }
+  static Longs load_widened(const std::int32_t* at) {
+    return {{widen(load_half(at), 0), widen(load_half(at), 1)}};
+  }
   static Doubles load_doubles(const std::int64_t* at) {
     return {{_mm256_castsi256_pd(load_half(at)), _mm256_castsi256_pd(load_half(at + 4))}};
   }
@@ -86,14 +93,29 @@ struct Avx2 {
   static Longs multiply_low(const Longs& a, const Longs& b) {
     return both([&](int h) { return _mm256_mul_epi32(a.half[h], b.half[h]); });
   }
-  static std::int64_t largest(const Longs& a) {
-    std::int64_t each[8], most;
-    store_words(reinterpret_cast<std::int32_t*>(each), Words{{a.half[0], a.half[1]}});
-    most = each[0];
-    for (std::int64_t x : each) most = x > most ? x : most;
-    return most;
+
+  static Words all_words(std::int64_t x) {
+    const __m256i all = _mm256_set1_epi32(static_cast<int>(x));
+    return {{all, all}};
   }
-  static std::int64_t least(const Longs& a) { return -largest(sub(all(0), a)); }
+  static Words add_words(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_add_epi32(a.half[h], b.half[h]); });
+  }
+  static Words words_and(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_and_si256(a.half[h], b.half[h]); });
+  }
+  static Words word_signs(const Words& a) {
+    return both_words([&](int h) { return _mm256_srai_epi32(a.half[h], 31); });
+  }
+  static Words shift_words_down(const Words& a, Count n) {
+    return both_words([&](int h) { return _mm256_sra_epi32(a.half[h], n); });
+  }
+  static Words word_sizes(const Words& a) {
+    return both_words([&](int h) { return _mm256_abs_epi32(a.half[h]); });
+  }
+  static Words max_unsigned(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_max_epu32(a.half[h], b.half[h]); });
+  }
 
   static __m256i widen(__m256i words, int which) {
     return _mm256_cvtepi32_epi64(which ? _mm256_extracti128_si256(words, 1) : _mm256_castsi256_si128(words));

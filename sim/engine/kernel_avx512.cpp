@@ -19,6 +19,10 @@ struct Avx512 {
   static Words load_words(const void* at) { return _mm512_loadu_si512(at); }
   static void store_words(void* at, Words x) { _mm512_storeu_si512(at, x); }
   static Longs load(const std::int64_t* at) { return _mm512_loadu_si512(at); }
+  static void store(std::int64_t* at, Longs x) { _mm512_storeu_si512(at, x); }
+  static Longs load_widened(const std::int32_t* at) {
+    return _mm512_cvtepi32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)));
+  }
   static Doubles load_doubles(const std::int64_t* at) { return _mm512_castsi512_pd(load(at)); }
 
   static Longs add(Longs a, Longs b) { return _mm512_add_epi64(a, b); }
@@ -33,8 +37,14 @@ struct Avx512 {
   static Longs shift_down(Longs a, Count n) { return _mm512_sra_epi64(a, n); }
   static Longs multiply(Longs a, Longs b) { return _mm512_mullo_epi64(a, b); }
   static Longs multiply_low(Longs a, Longs b) { return _mm512_mul_epi32(a, b); }
-  static std::int64_t largest(Longs a) { return _mm512_reduce_max_epi64(a); }
-  static std::int64_t least(Longs a) { return _mm512_reduce_min_epi64(a); }
+
+  static Words all_words(std::int64_t x) { return _mm512_set1_epi32(static_cast<int>(x)); }
+  static Words add_words(Words a, Words b) { return _mm512_add_epi32(a, b); }
+  static Words words_and(Words a, Words b) { return _mm512_and_si512(a, b); }
+  static Words word_signs(Words a) { return _mm512_srai_epi32(a, 31); }
+  static Words shift_words_down(Words a, Count n) { return _mm512_sra_epi32(a, n); }
+  static Words word_sizes(Words a) { return _mm512_abs_epi32(a); }
+  static Words max_unsigned(Words a, Words b) { return _mm512_max_epu32(a, b); }
 
   static Longs low(Words a) { return _mm512_cvtepi32_epi64(_mm512_castsi512_si256(a)); }
   static Longs high(Words a) { return _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(a, 1)); }

@@ -54,28 +54,30 @@ template <typename Isa> struct Kernel {
   /// Everything that stays the same from block to block.
   struct Stage {
     const KernelArgs& args;
-    Rounder drive, state, link;
-    Longs one, minus_one, flip_by_sign, flip_always, least_sum, largest_sum, least_drive, largest_drive,
-        largest;
-    typename Isa::Count bias_up, state_fraction, ratio_up;
+    Rounder drive, state;
+    Words link_add, link_add_if_negative, link_add_if_odd, largest;
+    Longs one, minus_one, flip_by_sign, flip_always, least_sum, largest_sum, least_drive, largest_drive;
+    typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
     typename Isa::Doubles quarter, half;
 
     Stage(const KernelArgs& a, const KernelSwings& s)
-        : args(a), drive(a.drive), state(a.state_rounding), link(a.link), one(Isa::all(a.one_drive)),
-          minus_one(Isa::all(-a.one_drive)), flip_by_sign(Isa::all(a.division.flip_by_sign)),
-          flip_always(Isa::all(a.division.flip_always)), least_sum(Isa::all(s.least_sum)),
-          largest_sum(Isa::all(s.largest_sum)), least_drive(Isa::all(s.least_drive)),
-          largest_drive(Isa::all(s.largest_drive)), largest(Isa::all(s.largest_change)),
-          bias_up(Isa::count(a.bias_up)), state_fraction(Isa::count(a.state_fraction)),
-          ratio_up(Isa::count(a.division.ratio_up)), quarter(Isa::all_doubles(0.25)),
-          half(Isa::all_doubles(a.division.half)) {}
+        : args(a), drive(a.drive), state(a.state_rounding), link_add(Isa::all_words(a.link.add)),
+          link_add_if_negative(Isa::all_words(a.link.add_if_negative)),
+          link_add_if_odd(Isa::all_words(a.link.add_if_odd)), largest(Isa::load_words(s.largest_change)),
+          one(Isa::all(a.one_drive)), minus_one(Isa::all(-a.one_drive)),
+          flip_by_sign(Isa::all(a.division.flip_by_sign)), flip_always(Isa::all(a.division.flip_always)),
+          least_sum(Isa::load(s.least_sum)), largest_sum(Isa::load(s.largest_sum)),
+          least_drive(Isa::load(s.least_drive)), largest_drive(Isa::load(s.largest_drive)),
+          link_places(Isa::count(a.link.places)), bias_up(Isa::count(a.bias_up)),
+          state_fraction(Isa::count(a.state_fraction)), ratio_up(Isa::count(a.division.ratio_up)),
+          quarter(Isa::all_doubles(0.25)), half(Isa::all_doubles(a.division.half)) {}
 
     void swings(KernelSwings& s) const {
-      s.largest_change = Isa::largest(largest);
-      s.least_sum = Isa::least(least_sum);
-      s.largest_sum = Isa::largest(largest_sum);
-      s.least_drive = Isa::least(least_drive);
-      s.largest_drive = Isa::largest(largest_drive);
+      Isa::store_words(s.largest_change, largest);
+      Isa::store(s.least_sum, least_sum);
+      Isa::store(s.largest_sum, largest_sum);
+      Isa::store(s.least_drive, least_drive);
+      Isa::store(s.largest_drive, largest_drive);
     }
   };
 
@@ -107,23 +109,33 @@ template <typename Isa> struct Kernel {
     c.largest_drive = Isa::max(c.largest_drive, u);
     const Longs product =
         Isa::sub(Isa::shift_up(u, c.state_fraction), Isa::multiply_low(V, Isa::absolute(u)));
-    const Longs change = rounded<plain>(product, c.state);
-    c.largest = Isa::max(c.largest, Isa::absolute(change));
-    return change;
+    return rounded<plain>(product, c.state);
   }
 
-  /// The output stage of sixteen neurons; returns their links.
+  /// V to its link. V has at most 31 bits of size, and so has all that is added.
+  template <bool plain> static Words link_of(Words V, const Stage& c) {
+    Words sum = Isa::add_words(V, c.link_add);
+    if constexpr (!plain) {
+      sum = Isa::add_words(sum, Isa::words_and(Isa::word_signs(V), c.link_add_if_negative));
+      sum = Isa::add_words(sum, Isa::words_and(Isa::shift_words_down(V, c.link_places), c.link_add_if_odd));
+    }
+    return Isa::shift_words_down(sum, c.link_places);
+  }
+
+  /// The output stage of sixteen neurons; returns their links. |Delta V| may be 2^31: unsigned.
   template <Normalise how, bool plain, bool wide>
   static Words publish(const Sum<Isa, wide>& sum, std::size_t at, Stage& c) {
     const KernelArgs& a = c.args;
-    const Words bias = Isa::load_words(a.bias + at), V = Isa::load_words(a.state + at);
-    const Longs V0 = Isa::low(V), V1 = Isa::high(V);
-    const Longs s0 = Isa::add(Isa::shift_up(Isa::low(bias), c.bias_up), sum.low());
-    const Longs s1 = Isa::add(Isa::shift_up(Isa::high(bias), c.bias_up), sum.high());
-    const Longs new0 = Isa::add(V0, change_of<how, plain>(s0, V0, a.multiplier + at, c));
-    const Longs new1 = Isa::add(V1, change_of<how, plain>(s1, V1, a.multiplier + at + 8, c));
-    Isa::store_words(a.state + at, Isa::narrow(new0, new1));
-    return Isa::narrow(rounded<plain>(new0, c.link), rounded<plain>(new1, c.link));
+    const Words V = Isa::load_words(a.state + at);
+    const Longs s0 = Isa::add(Isa::shift_up(Isa::load_widened(a.bias + at), c.bias_up), sum.low());
+    const Longs s1 = Isa::add(Isa::shift_up(Isa::load_widened(a.bias + at + 8), c.bias_up), sum.high());
+    const Longs V0 = Isa::load_widened(a.state + at), V1 = Isa::load_widened(a.state + at + 8);
+    const Words change = Isa::narrow(change_of<how, plain>(s0, V0, a.multiplier + at, c),
+                                     change_of<how, plain>(s1, V1, a.multiplier + at + 8, c));
+    c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(change));
+    const Words now = Isa::add_words(V, change);
+    Isa::store_words(a.state + at, now);
+    return link_of<plain>(now, c);
   }
 
   static Words fetch(const std::uint32_t* plane, const Source& source, const std::uint32_t* far_slot) {
@@ -132,62 +144,75 @@ template <typename Isa> struct Kernel {
     return Isa::gather(plane, far_slot + source.base);
   }
 
-  /// Neighbours' part of the sums of all neurons of sixteen cells; moves `w` of each row behind it.
-  template <int P, bool wide>
-  static void add_neighbours(const KernelArgs& a, std::size_t block, const std::uint32_t* w, std::size_t row,
-                             Sum<Isa, wide> (&sum)[P]) {
-    const std::size_t n = a.neighbours[block];
-    const Source* source = a.source + a.first_source[block];
-    const std::uint32_t* w_xy = w + 16;
-    const std::uint32_t* w_zz = w + 16 * (1 + n);
-    for (std::size_t k = 0; k < n; k += P == 3 ? 2 : 1) {
-      const Words first = fetch(a.xy, source[k], a.far_slot);
-      for (int p = 0; p < P; ++p) sum[p].add(first, w_xy + static_cast<std::size_t>(p) * row + 16 * k);
-      if constexpr (P == 3) {
-        const Words second = fetch(a.xy, source[k + 1], a.far_slot);
-        const Words z =
-            Isa::halves(fetch(a.zz, source[k], a.far_slot), fetch(a.zz, source[k + 1], a.far_slot));
-        for (int p = 0; p < P; ++p) {
-          sum[p].add(second, w_xy + static_cast<std::size_t>(p) * row + 16 * k + 16);
-          sum[p].add(z, w_zz + static_cast<std::size_t>(p) * row + 8 * k);
+  /// Sixteen cells in work. The sums of x, y and z have names, not an array, so that they stay in registers.
+  template <int P, bool wide> struct Block {
+    const std::size_t slot;
+    Sum<Isa, wide> x, y, z;
+    Words xy;
+    const std::uint32_t* w; ///< moves through the block's weights in the order in which they lie
+
+    void add(Words links) {
+      x.add(links, w);
+      y.add(links, w + 16);
+      if constexpr (P == 3) z.add(links, w + 32);
+      w += 16 * P;
+    }
+
+    /// All of the sums that does not wait for the cells' own neurons: neighbours, own z, and x's own inputs.
+    Block(const KernelArgs& a, std::size_t block)
+        : slot(16 * block), xy(Isa::load_words(a.xy + slot)), w(a.weight + a.first_weight[block]) {
+      const Source* source = a.source + a.first_source[block];
+      const Source* const end = source + a.neighbours[block];
+      for (; source != end; source += P == 3 ? 2 : 1) {
+        add(fetch(a.xy, source[0], a.far_slot));
+        if constexpr (P == 3) {
+          add(fetch(a.xy, source[1], a.far_slot));
+          add(Isa::halves(fetch(a.zz, source[0], a.far_slot), fetch(a.zz, source[1], a.far_slot)));
         }
       }
+      if constexpr (P == 3) add(Isa::load_words(a.zz + slot));
+      x.add(xy, w);
+      if (!a.synchronous) return;
+      y.add(xy, w + 16);
+      if constexpr (P == 3) z.add(xy, w + 32);
     }
-  }
 
-  template <int P, Normalise how, bool plain, bool wide>
-  static void fire_block(const KernelArgs& a, std::size_t block, Stage& c) {
-    const std::size_t n = a.neighbours[block], row = 16 * (P == 3 ? 2 + n + n / 2 : 1 + n), slot = 16 * block;
-    const std::uint32_t* w = a.weight + a.first_weight[block];
-    Sum<Isa, wide> sum[P];
-    add_neighbours<P, wide>(a, block, w, row, sum);
-    Words xy = Isa::load_words(a.xy + slot), now_xy = xy, zz = P == 3 ? Isa::load_words(a.zz + slot) : xy;
-    for (int p = 0; p < P; ++p, w += row) {
-      sum[p].add(a.synchronous ? xy : now_xy, w);
-      if constexpr (P == 3) sum[p].add(zz, w + row - 16);
-      const Words link = publish<how, plain, wide>(sum[p], 16 * (P * block + static_cast<std::size_t>(p)), c);
-      if (p == 0) now_xy = Isa::halves(link, now_xy);
-      if (p == 1) now_xy = Isa::halves(now_xy, Isa::up_16(link));
-      if (p == 2) Isa::store_words(a.next_zz + slot, Isa::halves(link, Isa::up_16(link)));
+    // One neuron of each cell after the other, each reading what the one before it has become.
+    template <Normalise how, bool plain> void fire_x(Stage& c) {
+      xy = Isa::halves(publish<how, plain>(x, P * slot, c), xy);
+      if (!c.args.synchronous) y.add(xy, w + 16);
     }
-    Isa::store_words(a.next_xy + slot, now_xy);
-  }
+    template <Normalise how, bool plain> void fire_y(Stage& c) {
+      xy = Isa::halves(xy, Isa::up_16(publish<how, plain>(y, P * slot + 16, c)));
+      Isa::store_words(c.args.next_xy + slot, xy);
+      if (P == 3 && !c.args.synchronous) z.add(xy, w + 32);
+    }
+    template <Normalise how, bool plain> void fire_z(Stage& c) {
+      const Words link = publish<how, plain>(z, P * slot + 32, c);
+      Isa::store_words(c.args.next_zz + slot, Isa::halves(link, Isa::up_16(link)));
+    }
+  };
 
   template <int P, Normalise how, bool plain, bool wide>
   static void fire(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
     Stage c(a, swings);
-    for (std::size_t block = first; block < last; ++block) fire_block<P, how, plain, wide>(a, block, c);
+    for (std::size_t block = first; block < last; ++block) {
+      Block<P, wide> cells(a, block);
+      cells.template fire_x<how, plain>(c);
+      cells.template fire_y<how, plain>(c);
+      if constexpr (P == 3) cells.template fire_z<how, plain>(c);
+    }
     c.swings(swings);
   }
 
   template <int P> static void rows(const KernelArgs& a, std::size_t block, std::uint32_t* sums) {
-    const std::size_t n = a.neighbours[block], pairs = P == 3 ? 2 + n + n / 2 : 1 + n;
-    const std::uint32_t* w = a.weight + a.first_weight[block];
-    for (int p = 0; p < P; ++p) {
-      Words sum = Isa::no_words();
-      for (std::size_t k = 0; k < pairs; ++k, w += 16) sum = Isa::add_magnitudes(sum, Isa::load_words(w));
-      Isa::store_words(sums + 16 * p, sum);
-    }
+    const std::uint32_t *w = a.weight + a.first_weight[block], *const end =
+                                                                   a.weight + a.first_weight[block + 1];
+    Words sum[P];
+    for (Words& s : sum) s = Isa::no_words();
+    while (w != end)
+      for (int p = 0; p < P; ++p, w += 16) sum[p] = Isa::add_magnitudes(sum[p], Isa::load_words(w));
+    for (int p = 0; p < P; ++p) Isa::store_words(sums + 16 * p, sum[p]);
   }
 };
 

@@ -52,6 +52,12 @@ struct Portable {
   static Longs load(const std::int64_t* at) {
     return each([&](int l) { return at[l]; });
   }
+  static void store(std::int64_t* at, const Longs& x) {
+    for (int l = 0; l < 8; ++l) at[l] = x.at[l];
+  }
+  static Longs load_widened(const std::int32_t* at) {
+    return each([&](int l) { return std::int64_t{at[l]}; });
+  }
   static Doubles load_doubles(const std::int64_t* at) {
     Doubles r;
     __builtin_memcpy(&r, at, sizeof r);
@@ -96,15 +102,35 @@ struct Portable {
       return std::int64_t{static_cast<std::int32_t>(a.at[l])} * static_cast<std::int32_t>(b.at[l]);
     });
   }
-  static std::int64_t largest(const Longs& a) {
-    std::int64_t most = a.at[0];
-    for (std::int64_t x : a.at) most = x > most ? x : most;
-    return most;
+
+  static std::int32_t wrapped(std::uint32_t x) { return static_cast<std::int32_t>(x); }
+  static Words all_words(std::int64_t x) {
+    return each_word([&](int) { return static_cast<std::int32_t>(x); });
   }
-  static std::int64_t least(const Longs& a) {
-    std::int64_t most = a.at[0];
-    for (std::int64_t x : a.at) most = x < most ? x : most;
-    return most;
+  static Words add_words(const Words& a, const Words& b) {
+    return each_word([&](int l) {
+      return wrapped(static_cast<std::uint32_t>(a.at[l]) + static_cast<std::uint32_t>(b.at[l]));
+    });
+  }
+  static Words words_and(const Words& a, const Words& b) {
+    return each_word([&](int l) { return a.at[l] & b.at[l]; });
+  }
+  static Words word_signs(const Words& a) {
+    return each_word([&](int l) { return a.at[l] >> 31; });
+  }
+  static Words shift_words_down(const Words& a, Count n) {
+    return each_word([&](int l) { return a.at[l] >> n; });
+  }
+  static Words word_sizes(const Words& a) {
+    return each_word([&](int l) {
+      const auto x = static_cast<std::uint32_t>(a.at[l]);
+      return wrapped(a.at[l] < 0 ? 0u - x : x);
+    });
+  }
+  static Words max_unsigned(const Words& a, const Words& b) {
+    return each_word([&](int l) {
+      return static_cast<std::uint32_t>(a.at[l]) > static_cast<std::uint32_t>(b.at[l]) ? a.at[l] : b.at[l];
+    });
   }
 
   static Longs low(const Words& a) {

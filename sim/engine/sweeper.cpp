@@ -43,38 +43,35 @@ void Sweeper::fire_group(std::size_t group, std::size_t member, Swept& swept) {
 }
 
 std::uint32_t Sweeper::relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                             Swept& swept) {
-  return followed_ > 1 ? relax_following(threshold, limit, stop, swept)
-                       : relax_plainly(threshold, limit, stop, swept);
+                             Relaxed& relaxed) {
+  return followed_ > 1 ? relax_following(threshold, limit, stop, relaxed)
+                       : relax_plainly(threshold, limit, stop, relaxed);
 }
 
 std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limit,
-                                     const std::atomic<bool>& stop, Swept& swept) {
-  struct alignas(128) Own {
-    Swept swept;
-  };
-  std::vector<Own> own(team_.size());
+                                     const std::atomic<bool>& stop, Relaxed& relaxed) {
+  std::vector<Swept> own(team_.size());
   std::uint32_t done = 0;
   bool over = false;
   team_.run([&](std::size_t member) {
     while (!over) {
-      own[member].swept.largest_change = 0;
+      own[member].begin_sweep();
       for (std::size_t g = 0; g < layout_.groups; ++g) {
-        fire_group(g, member, own[member].swept);
+        fire_group(g, member, own[member]);
         team_.barrier();
       }
       if (member == 0) {
         core_.end_sweep();
-        swept.largest_change = 0;
-        for (const Own& o : own)
-          swept.largest_change = std::max(swept.largest_change, o.swept.largest_change);
+        relaxed.largest_change = 0;
+        for (const Swept& o : own)
+          relaxed.largest_change = std::max(relaxed.largest_change, o.largest_change());
         done += 1;
-        over = swept.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed);
+        over = relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed);
       }
       team_.barrier();
     }
   });
-  for (const Own& o : own) swept.extremes.merge(o.swept.extremes);
+  for (const Swept& o : own) relaxed.extremes.merge(o.all_extremes());
   return done;
 }
 
@@ -94,7 +91,7 @@ void Sweeper::follow(std::size_t sweeps, std::vector<Swept>& swept) {
 // The sweep that ends the run is known only when all that follow it have begun: then back, and exactly so
 // far.
 std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t limit,
-                                       const std::atomic<bool>& stop, Swept& swept) {
+                                       const std::atomic<bool>& stop, Relaxed& relaxed) {
   std::uint32_t done = 0;
   while (true) {
     const std::size_t count = std::min<std::size_t>(followed_, limit - done);
@@ -102,15 +99,16 @@ std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t li
     core_.keep_outputs();
     follow(count, each);
     std::size_t needed = 1;
-    while (needed < count && each[needed - 1].largest_change > threshold) ++needed;
+    while (needed < count && each[needed - 1].largest_change() > threshold) ++needed;
     if (needed < count) {
       core_.restore_outputs();
+      each.assign(needed, {});
       follow(needed, each);
     }
-    for (std::size_t k = 0; k < needed; ++k) swept.extremes.merge(each[k].extremes);
-    swept.largest_change = each[needed - 1].largest_change;
+    for (std::size_t k = 0; k < needed; ++k) relaxed.extremes.merge(each[k].all_extremes());
+    relaxed.largest_change = each[needed - 1].largest_change();
     done += static_cast<std::uint32_t>(needed);
-    if (swept.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
+    if (relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
       return done;
   }
 }

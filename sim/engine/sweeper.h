@@ -7,6 +7,12 @@
 
 namespace hopmesh::engine {
 
+/// What sweeps come to: the last one's largest |Delta V|, and the swings of all of them.
+struct Relaxed {
+  std::int64_t largest_change = 0;
+  Extremes extremes;
+};
+
 class Sweeper {
  public:
   /// `followed`: sweeps that follow each other; needs a layout of several chunks, one thread, no synchronous
@@ -18,15 +24,15 @@ class Sweeper {
 
   void prepare();
   /// Sweeps until one changes no output by more than `threshold`, or `limit` sweeps are done, or `stop`.
-  /// Returns how many were done; `swept` holds the last one's largest change and the swings of all.
+  /// Returns how many were done; what they came to stands in `relaxed`.
   std::uint32_t relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                      Swept& swept);
+                      Relaxed& relaxed);
 
  private:
   std::uint32_t relax_plainly(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                              Swept& swept);
+                              Relaxed& relaxed);
   std::uint32_t relax_following(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                                Swept& swept);
+                                Relaxed& relaxed);
   void fire_group(std::size_t group, std::size_t member, Swept& swept);
   void follow(std::size_t sweeps, std::vector<Swept>& swept);
 
