@@ -59,7 +59,7 @@ class Core {
   virtual void prepare(std::size_t first, std::size_t last) = 0;
   /// After all blocks were prepared, before the first sweep.
   virtual void begin_run() {}
-  /// Fires every neuron of the blocks [first, last) of one group.
+  /// Fires every neuron of the blocks [first, last), as if one after the other; of one group or of several.
   virtual void fire(std::size_t first, std::size_t last, Swept& swept) = 0;
   /// After the last group of a sweep (synchronous arrays show the new outputs now).
   virtual void end_sweep() {}

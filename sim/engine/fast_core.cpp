@@ -194,6 +194,7 @@ class FastCore : public Core {
   void lay_out_weights();
   void find_sources();
   void add_source(std::size_t block, std::size_t column);
+  bool reads_the_two_before(std::size_t block) const;
   void set_arguments();
   void point_at_links();
   void invert(std::size_t at, std::uint64_t norm);
@@ -211,6 +212,7 @@ class FastCore : public Core {
   std::vector<std::size_t> first_weight_;
   std::vector<std::uint32_t> first_source_, far_slot_;
   std::vector<Source> source_;
+  std::vector<std::uint8_t> waits_;
   AlignedVector<std::uint32_t> weight_;
   AlignedVector<std::int32_t> bias_, state_, kept_state_;
   AlignedVector<std::int64_t> multiplier_;
@@ -244,6 +246,7 @@ void FastCore::find_sources() {
   first_source_.assign(1, 0);
   for (std::size_t b = 0; b < neighbours_.size(); ++b) {
     for (std::size_t k = 0; k < neighbours_[b]; ++k) add_source(b, k);
+    waits_.push_back(reads_the_two_before(b));
     first_source_.push_back(static_cast<std::uint32_t>(source_.size()));
   }
 }
@@ -306,12 +309,22 @@ void FastCore::add_source(std::size_t block, std::size_t column) {
   source_.push_back(s);
 }
 
+bool FastCore::reads_the_two_before(std::size_t block) const {
+  for (std::size_t slot = block * L; slot < (block + 1) * L; ++slot)
+    for (std::size_t k = 0; k < degree(slot); ++k) {
+      const std::size_t other = neighbour(slot, k) / L;
+      if (other < block && other + 2 >= block) return true;
+    }
+  return false;
+}
+
 void FastCore::set_arguments() {
   const spec::Formats& f = plan_.formats;
   args_.neighbours = neighbours_.data();
   args_.first_weight = first_weight_.data();
   args_.first_source = first_source_.data();
   args_.source = source_.data();
+  args_.waits = waits_.data();
   args_.far_slot = far_slot_.data();
   args_.weight = weight_.data();
   args_.bias = bias_.data();

@@ -36,6 +36,7 @@ struct KernelArgs {
   const std::size_t* first_weight;   ///< of a block, in `weight`
   const std::uint32_t* first_source; ///< of a block, in `source`
   const Source* source;
+  const std::uint8_t* waits; ///< does a block read one of the two before it? (not within a group)
   const std::uint32_t* far_slot;
   /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
   /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own

@@ -144,12 +144,14 @@ template <typename Isa> struct Kernel {
     return Isa::gather(plane, far_slot + source.base);
   }
 
-  /// Sixteen cells in work. The sums of x, y and z have names, not an array, so that they stay in registers.
+  /// A block on its way through the three stages of `fire`. The sums of x, y and z have names, not an array,
+  /// so that they stay in registers.
   template <int P, bool wide> struct Block {
-    const std::size_t slot;
+    bool live = false;
+    std::size_t slot = 0;
+    const std::uint32_t* w = nullptr; ///< moves through the block's weights in the order in which they lie
     Sum<Isa, wide> x, y, z;
-    Words xy;
-    const std::uint32_t* w; ///< moves through the block's weights in the order in which they lie
+    Words xy = Isa::no_words();
 
     void add(Words links) {
       x.add(links, w);
@@ -159,8 +161,11 @@ template <typename Isa> struct Kernel {
     }
 
     /// All of the sums that does not wait for the cells' own neurons: neighbours, own z, and x's own inputs.
-    Block(const KernelArgs& a, std::size_t block)
-        : slot(16 * block), xy(Isa::load_words(a.xy + slot)), w(a.weight + a.first_weight[block]) {
+    void load(const KernelArgs& a, std::size_t block) {
+      live = true;
+      slot = 16 * block;
+      w = a.weight + a.first_weight[block];
+      x = y = z = {};
       const Source* source = a.source + a.first_source[block];
       const Source* const end = source + a.neighbours[block];
       for (; source != end; source += P == 3 ? 2 : 1) {
@@ -171,36 +176,51 @@ template <typename Isa> struct Kernel {
         }
       }
       if constexpr (P == 3) add(Isa::load_words(a.zz + slot));
+      xy = Isa::load_words(a.xy + slot);
       x.add(xy, w);
       if (!a.synchronous) return;
       y.add(xy, w + 16);
       if constexpr (P == 3) z.add(xy, w + 32);
     }
-
-    // One neuron of each cell after the other, each reading what the one before it has become.
-    template <Normalise how, bool plain> void fire_x(Stage& c) {
-      xy = Isa::halves(publish<how, plain>(x, P * slot, c), xy);
-      if (!c.args.synchronous) y.add(xy, w + 16);
-    }
-    template <Normalise how, bool plain> void fire_y(Stage& c) {
-      xy = Isa::halves(xy, Isa::up_16(publish<how, plain>(y, P * slot + 16, c)));
-      Isa::store_words(c.args.next_xy + slot, xy);
-      if (P == 3 && !c.args.synchronous) z.add(xy, w + 32);
-    }
-    template <Normalise how, bool plain> void fire_z(Stage& c) {
-      const Words link = publish<how, plain>(z, P * slot + 32, c);
-      Isa::store_words(c.args.next_zz + slot, Isa::halves(link, Isa::up_16(link)));
-    }
   };
 
+  // A cell's neurons wait for each other, a group's cells do not. So the z of one block fires beside the y of
+  // the next, the x of the one after and the sums of a fourth: four short chains at a time instead of one
+  // long one, which the processor could not look past. A block that reads what is still on its way waits for
+  // it.
   template <int P, Normalise how, bool plain, bool wide>
   static void fire(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
     Stage c(a, swings);
-    for (std::size_t block = first; block < last; ++block) {
-      Block<P, wide> cells(a, block);
-      cells.template fire_x<how, plain>(c);
-      cells.template fire_y<how, plain>(c);
-      if constexpr (P == 3) cells.template fire_z<how, plain>(c);
+    Block<P, wide> summed, with_x, with_y;
+    for (std::size_t block = first; true;) {
+      if (P == 3 && with_y.live) {
+        const Words link = publish<how, plain>(with_y.z, 3 * with_y.slot + 32, c);
+        Isa::store_words(a.next_zz + with_y.slot, Isa::halves(link, Isa::up_16(link)));
+      }
+      with_y.live = P == 3 && with_x.live;
+      if (with_x.live) {
+        const Words link = publish<how, plain>(with_x.y, P * with_x.slot + 16, c);
+        const Words xy = Isa::halves(with_x.xy, Isa::up_16(link));
+        Isa::store_words(a.next_xy + with_x.slot, xy);
+        with_y.slot = with_x.slot;
+        with_y.z = with_x.z;
+        if (P == 3 && !a.synchronous) with_y.z.add(xy, with_x.w + 32);
+      }
+      with_x.live = summed.live;
+      if (summed.live) {
+        with_x.xy = Isa::halves(publish<how, plain>(summed.x, P * summed.slot, c), summed.xy);
+        with_x.slot = summed.slot;
+        with_x.w = summed.w;
+        with_x.y = summed.y;
+        with_x.z = summed.z;
+        if (!a.synchronous) with_x.y.add(with_x.xy, summed.w + 16);
+      }
+      const bool on_their_way = with_x.live || with_y.live;
+      summed.live = false;
+      if (block < last && !(on_their_way && a.waits[block]))
+        summed.load(a, block++);
+      else if (!on_their_way)
+        break;
     }
     c.swings(swings);
   }

@@ -30,6 +30,15 @@ void Sweeper::prepare() {
   core_.begin_run();
 }
 
+// A whole sweep in one go where nobody shares it.
+void Sweeper::fire_sweep(std::size_t member, Swept& swept) {
+  if (team_.size() == 1 && layout_.chunks == 1) return core_.fire(0, layout_.blocks(), swept);
+  for (std::size_t g = 0; g < layout_.groups; ++g) {
+    fire_group(g, member, swept);
+    team_.barrier();
+  }
+}
+
 // One chunk: the group's blocks are shared out. Several: each member keeps to its own chunks.
 void Sweeper::fire_group(std::size_t group, std::size_t member, Swept& swept) {
   const bool whole = layout_.chunks > 1;
@@ -56,10 +65,7 @@ std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limi
   team_.run([&](std::size_t member) {
     while (!over) {
       own[member].begin_sweep();
-      for (std::size_t g = 0; g < layout_.groups; ++g) {
-        fire_group(g, member, own[member]);
-        team_.barrier();
-      }
+      fire_sweep(member, own[member]);
       if (member == 0) {
         core_.end_sweep();
         relaxed.largest_change = 0;

@@ -33,6 +33,7 @@ class Sweeper {
                               Relaxed& relaxed);
   std::uint32_t relax_following(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
                                 Relaxed& relaxed);
+  void fire_sweep(std::size_t member, Swept& swept);
   void fire_group(std::size_t group, std::size_t member, Swept& swept);
   void follow(std::size_t sweeps, std::vector<Swept>& swept);
 
