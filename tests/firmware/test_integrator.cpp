@@ -49,13 +49,14 @@ struct Moving {
     const std::size_t nodes = pair.scene.nodes();
     for (std::size_t k = 0; k < 3 * nodes; ++k) position.push_back(pair.scene.position[k / 3][k % 3]);
     velocity.resize(3 * nodes), acceleration.resize(3 * nodes), predicted.resize(3 * nodes);
+    direction.resize(3 * pair.firmware.mesh.cells), state.direction = direction.data();
     energy_change.resize(pair.firmware.mesh.cells), start.resize(pair.firmware.neurons());
     state.position = position.data(), state.velocity = velocity.data();
     state.acceleration = acceleration.data(), state.predicted = predicted.data();
     state.energy_change = energy_change.data(), state.start = start.data();
     state.network = pair.firmware.network;
   }
-  std::vector<double> position, velocity, acceleration, predicted, energy_change, start;
+  std::vector<double> position, velocity, acceleration, predicted, energy_change, direction, start;
   hm_state state{};
 };
 
