@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
@@ -29,7 +28,10 @@ Floats minus(Floats a, const Floats& b) {
 /// Lays values into the one buffer, each run in a view of its own on a four-byte boundary.
 class Packer {
  public:
-  explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
+  Packer(tinygltf::Model& model, std::size_t bytes) : model_(model) {
+    model_.buffers.emplace_back();
+    model_.buffers[0].data.reserve(bytes);
+  }
 
   int view(const void* data, std::size_t bytes, int target) {
     auto& store = model_.buffers[0].data;
@@ -39,8 +41,8 @@ class Packer {
     view.byteOffset = store.size();
     view.byteLength = bytes;
     view.target = target;
-    store.resize(store.size() + bytes);
-    if (bytes > 0) std::memcpy(store.data() + view.byteOffset, data, bytes);
+    const auto* from = static_cast<const unsigned char*>(data);
+    store.insert(store.end(), from, from + bytes);
     model_.bufferViews.push_back(view);
     return static_cast<int>(model_.bufferViews.size()) - 1;
   }
@@ -224,7 +226,8 @@ void write_glb(const RunView& view, const std::filesystem::path& path) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Hopmesh";
-  Packer packer(model);
+  // A mesh has about two triangles a node; a vertex is 32 bytes, and 24 more in each further frame.
+  Packer packer(model, view.nodes * (56 + 24 * frames.size()) + flag_crest().size() + (1u << 16));
   add_material(model, packer, view.crest && !view.triangles.empty());
   tinygltf::Mesh mesh;
   mesh.name = valid_utf8(view.title);

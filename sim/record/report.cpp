@@ -126,10 +126,12 @@ std::string escaped(const std::string& text) {
 }
 
 void put_three(OutputFile& file, const std::filesystem::path& folder) {
+  std::error_code absent;
+  const auto bytes = std::filesystem::file_size(folder / "three.min.js", absent);
+  std::string text(absent ? 0 : bytes, ' ');
   std::ifstream source(folder / "three.min.js", std::ios::binary);
-  std::string text;
-  for (std::string block(1u << 16, '\0'); source; text.append(block, 0, std::size_t(source.gcount())))
-    source.read(block.data(), std::streamsize(block.size()));
+  source.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(source.gcount()));
   if (text.empty()) return file.write("// three.js was not found: the page draws on a 2-D canvas.");
   file.write(report_assets().at("three_license.js"));
   // In a script "<\/" means the same as "</", but does not end the element.
