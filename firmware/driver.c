@@ -13,10 +13,6 @@ static double magnitude(double x) {
   return x < 0 ? -x : x;
 }
 
-static int is_finite(double x) {
-  return x - x == 0;
-}
-
 static int32_t whole_units(double threshold, int fraction) {
   const double units = threshold * hm_power_of_two(fraction);
   return units >= 2147483647.0 ? INT32_MAX : (int32_t)units;
@@ -103,30 +99,72 @@ static int flush(stream* s) {
   return HM_OK;
 }
 
-static int put(stream* s, double value) {
-  int clipped = 0;
-  s->driver->buffer[s->waiting++] = (uint32_t)hm_code(value * s->scale, s->format, &clipped);
-  s->driver->clipped += (uint32_t)clipped;
-  return s->waiting == s->driver->buffer_words ? flush(s) : HM_OK;
+/* As many values as there are, in bursts of a full buffer. */
+static int put(stream* s, const double* values, uint32_t count) {
+  hm_driver* d = s->driver;
+  while (count > 0) {
+    const uint32_t room = d->buffer_words - s->waiting, part = count < room ? count : room;
+    d->clipped += hm_codes(values, part, s->scale, s->format, d->buffer + s->waiting);
+    s->waiting += part;
+    values += part;
+    count -= part;
+    if (s->waiting == d->buffer_words) TRY(flush(s));
+  }
+  return HM_OK;
 }
 
-static int all_finite(const double* values, uint32_t count) {
-  for (uint32_t k = 0; k < count; ++k)
-    if (!is_finite(values[k])) return 0;
-  return 1;
+/* One row, each value divided by `norm` before it is scaled. */
+static int put_row(stream* s, const double* values, uint32_t count, double norm) {
+  double divided[64];
+  while (count > 0) {
+    const uint32_t part = count < 64 ? count : 64;
+    for (uint32_t k = 0; k < part; ++k) divided[k] = values[k] / norm;
+    TRY(put(s, divided, part));
+    values += part;
+    count -= part;
+  }
+  return HM_OK;
 }
 
-static double largest_of(const double* values, uint32_t count) {
-  double largest = 0;
-  for (uint32_t k = 0; k < count; ++k)
-    if (magnitude(values[k]) > largest) largest = magnitude(values[k]);
-  return largest;
+typedef union double_bits { /* C11, 6.5.2.3: both read the same bytes */
+  double value;
+  uint64_t bits;
+} double_bits;
+
+static uint64_t larger(uint64_t largest, double value) {
+  const double_bits x = {.value = value};
+  const uint64_t bits = x.bits & INT64_MAX;
+  return bits > largest ? bits : largest;
+}
+
+/* The bits of the largest magnitude. As whole numbers they are in the order of the values, and infinities and
+   what is no number come last: one look tells the largest value and whether all are finite. Four in turn, so
+   that no look waits for the one before it. */
+static uint64_t largest_bits(const double* values, uint32_t count) {
+  uint64_t a = 0, b = 0, c = 0, d = 0;
+  uint32_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    a = larger(a, values[k]);
+    b = larger(b, values[k + 1]);
+    c = larger(c, values[k + 2]);
+    d = larger(d, values[k + 3]);
+  }
+  for (; k < count; ++k) a = larger(a, values[k]);
+  a = a > b ? a : b;
+  c = c > d ? c : d;
+  return a > c ? a : c;
+}
+
+static int is_finite(uint64_t largest) {
+  return largest < 0x7FF0000000000000u;
+}
+
+static double value_of(uint64_t bits) {
+  return (double_bits){.bits = bits}.value;
 }
 
 /* One power of two for the whole network: W stays symmetric, and u = s / N does not see it. */
-static int block_exponent(const hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
-  const double w = largest_of(network->weight, hm_weight_count(mesh));
-  const double b = largest_of(network->bias, mesh->cells * mesh->components);
+static int block_exponent(const hm_driver* d, double w, double b) {
   if (w == 0 && b == 0) return 0;
   if (w == 0) return hm_room(b, &d->bias);
   if (b == 0) return hm_room(w, &d->weight);
@@ -137,36 +175,55 @@ static int block_exponent(const hm_driver* d, const hm_mesh* mesh, const hm_netw
 /* What a prescaled row is divided by: N = sum |w| + |I|, or 1 for an empty row. */
 static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t cell, uint32_t p) {
   const double* row = network->weight + hm_row_offset(mesh, cell, p);
+  const uint32_t length = hm_row_length(mesh, cell);
   double norm = magnitude(network->bias[cell * mesh->components + p]);
-  for (uint32_t k = 0; k < hm_row_length(mesh, cell); ++k) norm += magnitude(row[k]);
+  for (uint32_t k = 0; k < length; ++k) norm += magnitude(row[k]);
   return norm > 0 ? norm : 1;
 }
 
-static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
+/* Rows lie one behind the other, as the window has them. */
+static int load_weights(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
   stream weights = open_stream(d, HM_WINDOW_WEIGHT, &d->weight, shift);
-  for (uint32_t c = 0; c < mesh->cells; ++c)
-    for (uint32_t p = 0; p < mesh->components; ++p) {
-      const double* row = network->weight + hm_row_offset(mesh, c, p);
-      const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
-      for (uint32_t k = 0; k < hm_row_length(mesh, c); ++k) TRY(put(&weights, row[k] / norm));
-    }
+  TRY(put(&weights, network->weight, hm_weight_count(mesh)));
   return flush(&weights);
 }
 
 static int load_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
   stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, shift);
-  for (uint32_t c = 0; c < mesh->cells; ++c)
-    for (uint32_t p = 0; p < mesh->components; ++p) {
-      const double norm = d->normaliser == HM_NORMALISER_PRESCALED ? row_norm(mesh, network, c, p) : 1;
-      TRY(put(&biases, network->bias[c * mesh->components + p] / norm));
-    }
+  TRY(put(&biases, network->bias, mesh->cells * mesh->components));
   return flush(&biases);
+}
+
+static int load_prescaled_weights(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
+  stream weights = open_stream(d, HM_WINDOW_WEIGHT, &d->weight, 0);
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p)
+      TRY(put_row(&weights, network->weight + hm_row_offset(mesh, c, p), hm_row_length(mesh, c),
+                  row_norm(mesh, network, c, p)));
+  return flush(&weights);
+}
+
+static int load_prescaled_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
+  stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, 0);
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p)
+      TRY(put_row(&biases, network->bias + c * mesh->components + p, 1, row_norm(mesh, network, c, p)));
+  return flush(&biases);
+}
+
+static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
+  if (d->normaliser == HM_NORMALISER_PRESCALED) {
+    TRY(load_prescaled_weights(d, mesh, network));
+    return load_prescaled_biases(d, mesh, network);
+  }
+  TRY(load_weights(d, mesh, network, shift));
+  return load_biases(d, mesh, network, shift);
 }
 
 static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
   const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
   stream outputs = open_stream(d, HM_WINDOW_OUTPUT, &d->state, 0);
-  for (uint32_t k = 0; k < mesh->cells * mesh->components; ++k) TRY(put(&outputs, network->output[k]));
+  TRY(put(&outputs, network->output, mesh->cells * mesh->components));
   d->clipped = clipped;
   return flush(&outputs);
 }
@@ -210,16 +267,17 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
                     uint32_t max_sweeps, hm_relaxation* result) {
   hm_driver* d = driver;
   const uint32_t neurons = mesh->cells * mesh->components;
-  if (!all_finite(network->weight, hm_weight_count(mesh)) || !all_finite(network->bias, neurons) ||
-      !all_finite(network->output, neurons))
+  const uint64_t weight = largest_bits(network->weight, hm_weight_count(mesh));
+  const uint64_t bias = largest_bits(network->bias, neurons);
+  if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
-  const int shift = d->normaliser == HM_NORMALISER_PRESCALED ? 0 : block_exponent(d, mesh, network);
+  const int shift =
+      d->normaliser == HM_NORMALISER_PRESCALED ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = 0;
   uint32_t status;
   TRY(read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
   TRY(load_rows(d, mesh, network, shift));
-  TRY(load_biases(d, mesh, network, shift));
   TRY(load_outputs(d, mesh, network));
   TRY(start_and_wait(d, threshold, max_sweeps));
   TRY(read_counters(d, result));

@@ -33,13 +33,17 @@ static void set_expansion_point(const hm_mesh* mesh, hm_state* state) {
   }
 }
 
-/* The direction that a node's neurons rest in, in coordinates; zero where they point nowhere. */
-static void direction_of(const hm_mesh* mesh, const hm_state* state, uint32_t cell, double direction[3]) {
-  const double* v = state->network.output + cell * mesh->components;
-  const double length = length_of(v, mesh->components);
-  direction[0] = direction[1] = direction[2] = 0;
-  if (length < shortest_direction) return;
-  for (uint32_t p = 0; p < mesh->components; ++p) direction[mesh->axis[p]] = v[p] / length;
+/* The directions that the nodes' neurons rest in, in coordinates; zero where they point nowhere. */
+static void find_directions(const hm_mesh* mesh, hm_state* state) {
+  const uint32_t n = mesh->components;
+  for (uint32_t c = 0; c < mesh->cells; ++c) {
+    const double* v = state->network.output + c * n;
+    double* direction = state->direction + 3 * c;
+    const double length = length_of(v, n);
+    direction[0] = direction[1] = direction[2] = 0;
+    if (length < shortest_direction) continue;
+    for (uint32_t p = 0; p < n; ++p) direction[mesh->axis[p]] = v[p] / length;
+  }
 }
 
 static double one_spring_energy(const hm_spring* spring, const double* a, const double* b) {
@@ -61,8 +65,8 @@ static void probe_end(const hm_mesh* mesh, const hm_spring* spring, int end, dou
                       double before) {
   const uint32_t node = spring->node[end], cell = mesh->cell_of_node[node];
   if (cell == HM_PINNED) return;
-  double direction[3], probed[3];
-  direction_of(mesh, state, cell, direction);
+  const double* direction = state->direction + 3 * cell;
+  double probed[3];
   for (uint32_t x = 0; x < 3; ++x) probed[x] = state->predicted[3 * node + x] + h * direction[x];
   state->energy_change[cell] +=
       one_spring_energy(spring, probed, state->predicted + 3 * spring->node[1 - end]) - before;
@@ -85,21 +89,56 @@ static void probe_energies(const hm_mesh* mesh, const hm_motion* motion, hm_stat
   }
 }
 
-/* Eq. 7, then position, velocity with friction, then the force, for every free node. */
-static void move(const hm_mesh* mesh, const hm_motion* motion, hm_state* state) {
+/* How strongly a cell's node is pushed (eq. 7). */
+static double kick_of(const hm_motion* motion, const hm_state* state, uint32_t cell) {
+  const double energy = motion->gamma * state->energy_change[cell];
+  return sqrt(energy < 0 ? -energy : energy);
+}
+
+typedef struct coordinate {
+  double position, velocity, acceleration;
+} coordinate;
+
+/* Position, velocity with friction, then the force, of one coordinate of a free node. */
+static coordinate moved(const hm_motion* motion, const hm_state* state, uint32_t at, uint32_t axis,
+                        double push) {
   const double dt = motion->time_step, h = dt * dt / 2;
+  const double a = state->acceleration[at] * motion->acceleration_memory + push;
+  coordinate next;
+  next.position = state->position[at] + (state->velocity[at] * dt + h * a);
+  next.velocity = (state->velocity[at] + a * dt) * motion->friction;
+  if (!motion->force_on_acceleration) next.velocity += dt * motion->force[axis];
+  next.acceleration = motion->force_on_acceleration ? a + motion->force[axis] : a;
+  return next;
+}
+
+static int is_finite(double x) {
+  return x - x == 0;
+}
+
+/* The first cell whose node would have no finite place or velocity; HM_PINNED if there is none. */
+static uint32_t first_lost(const hm_mesh* mesh, const hm_motion* motion, const hm_state* state) {
   for (uint32_t c = 0; c < mesh->cells; ++c) {
-    const uint32_t node = mesh->node_of_cell[c];
-    const double energy = motion->gamma * state->energy_change[c], kick = sqrt(energy < 0 ? -energy : energy);
-    double direction[3];
-    direction_of(mesh, state, c, direction);
+    const double kick = kick_of(motion, state, c);
     for (uint32_t p = 0; p < mesh->components; ++p) {
-      const uint32_t x = mesh->axis[p], at = 3 * node + x;
-      const double a = state->acceleration[at] * motion->acceleration_memory + direction[x] * kick;
-      state->position[at] += state->velocity[at] * dt + h * a;
-      state->velocity[at] = (state->velocity[at] + a * dt) * motion->friction;
-      if (!motion->force_on_acceleration) state->velocity[at] += dt * motion->force[x];
-      state->acceleration[at] = motion->force_on_acceleration ? a + motion->force[x] : a;
+      const uint32_t x = mesh->axis[p];
+      const coordinate next =
+          moved(motion, state, 3 * mesh->node_of_cell[c] + x, x, state->direction[3 * c + x] * kick);
+      if (!is_finite(next.position) || !is_finite(next.velocity)) return c;
+    }
+  }
+  return HM_PINNED;
+}
+
+static void move(const hm_mesh* mesh, const hm_motion* motion, hm_state* state) {
+  for (uint32_t c = 0; c < mesh->cells; ++c) {
+    const double kick = kick_of(motion, state, c);
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const uint32_t x = mesh->axis[p], at = 3 * mesh->node_of_cell[c] + x;
+      const coordinate next = moved(motion, state, at, x, state->direction[3 * c + x] * kick);
+      state->position[at] = next.position;
+      state->velocity[at] = next.velocity;
+      state->acceleration[at] = next.acceleration;
     }
   }
 }
@@ -121,7 +160,13 @@ int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solve
     result->cycles += relaxation.cycles;
     result->converged = relaxation.converged;
   }
+  find_directions(mesh, state);
   probe_energies(mesh, motion, state);
+  const uint32_t lost = first_lost(mesh, motion, state); /* asked first: then there is nothing to undo */
+  if (lost != HM_PINNED) {
+    result->lost_node = mesh->node_of_cell[lost];
+    return HM_ERROR_LOST;
+  }
   move(mesh, motion, state);
   state->step += 1;
   return HM_OK;

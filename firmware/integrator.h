@@ -32,6 +32,7 @@ typedef struct hm_state {
   double *position, *velocity, *acceleration; /* [nodes * 3] */
   double* predicted;                          /* [nodes * 3] C of the step just done */
   double* energy_change;                      /* [cells] Delta E of the step just done (eq. 6) */
+  double* direction;  /* [cells * 3] in which each cell's node was pushed in the step just done */
   double* start;      /* [cells * components] V0 of the last expansion, before relaxing */
   hm_network network; /* of the step just done; output holds V at rest */
   uint64_t step;      /* steps done */
@@ -39,11 +40,12 @@ typedef struct hm_state {
 
 typedef struct hm_step_result {
   uint32_t sweeps, converged; /* summed over expansions; converged in the last one */
+  uint32_t lost_node;         /* with HM_ERROR_LOST: the first */
   uint64_t cycles;
 } hm_step_result;
 
-/* Advances by one step. HM_OK, or the solver's error with positions, velocities and accelerations untouched.
- */
+/* Advances by one step. HM_OK, or the solver's error, or HM_ERROR_LOST; on an error positions, velocities and
+   accelerations are untouched. */
 int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
             hm_step_result* result);
 

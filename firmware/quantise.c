@@ -70,6 +70,106 @@ int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipp
   return hm_code(value * hm_power_of_two(shift + hm_fraction_bits(format)), format, clipped);
 }
 
+/* ---- many values ---- */
+
+/* A rounding mode as a correction of "to nearest, ties to even", which adding and taking away 2^52 + 2^51
+   does exactly: one more from a rest of `up` on, one less below a rest of `down`. The modes that do not tell
+   plus from minus work on magnitudes. */
+typedef struct rounding_rule {
+  double up, down;
+  int of_magnitude;
+} rounding_rule;
+
+static rounding_rule rule_of(int rounding) {
+  const double never = 2, tie = -0x1.fffffffffffffp-2; /* below it there is only -0.5 */
+  switch (rounding) {
+  case HM_RND:
+    return (rounding_rule){0.5, -never, 0};
+  case HM_RND_ZERO:
+    return (rounding_rule){never, tie, 1};
+  case HM_RND_MIN_INF:
+    return (rounding_rule){never, tie, 0};
+  case HM_RND_INF:
+    return (rounding_rule){0.5, -never, 1};
+  case HM_TRN:
+    return (rounding_rule){never, 0, 0};
+  case HM_TRN_ZERO:
+    return (rounding_rule){never, 0, 1};
+  default:
+    return (rounding_rule){never, -never, 0}; /* HM_RND_CONV */
+  }
+}
+
+/* To the nearest whole number by `rule`. Beyond 2^51 the last places are lost: too far to matter where the
+   result saturates. */
+static inline double rounded(double x, double up, double down) {
+  const double pushed = 6755399441055744.0; /* 2^52 + 2^51: doubles of this size are whole numbers */
+  const double nearest = (x + pushed) - pushed, rest = x - nearest;
+  const double more = rest >= up ? 1.0 : 0.0, less = rest < down ? 1.0 : 0.0;
+  return nearest + more - less;
+}
+
+static inline double limited(double x, double low, double high) {
+  const double below = x > high ? high : x;
+  return below < low ? low : below;
+}
+
+/* The loops have no branch that depends on a value: compilers do several values at a time. */
+static void signed_codes(const double* values, uint32_t count, double scale, rounding_rule rule, double low,
+                         double high, uint32_t* words) {
+  for (uint32_t k = 0; k < count; ++k) {
+    const double code = rounded(values[k] * scale, rule.up, rule.down);
+    words[k] = (uint32_t)(int32_t)limited(code, low, high);
+  }
+}
+
+static void magnitude_codes(const double* values, uint32_t count, double scale, rounding_rule rule,
+                            double low, double high, uint32_t* words) {
+  for (uint32_t k = 0; k < count; ++k) {
+    const double x = values[k] * scale, size = rounded(magnitude(x), rule.up, rule.down);
+    words[k] = (uint32_t)(int32_t)limited(x < 0 ? -size : size, low, high);
+  }
+}
+
+/* Only a code at an end of the range can have been clipped; hm_code knows whether it was. */
+static uint32_t count_clipped(const double* values, uint32_t count, double scale, const hm_format* format,
+                              uint32_t low, uint32_t high, const uint32_t* words) {
+  uint32_t at_an_end = 0, clipped = 0;
+  for (uint32_t k = 0; k < count; ++k) at_an_end += (uint32_t)((words[k] == low) | (words[k] == high));
+  for (uint32_t k = 0; k < count && at_an_end > 0; ++k) {
+    if (words[k] != low && words[k] != high) continue;
+    int beyond = 0;
+    hm_code(values[k] * scale, format, &beyond);
+    clipped += (uint32_t)beyond;
+    --at_an_end;
+  }
+  return clipped;
+}
+
+static uint32_t exact_codes(const double* values, uint32_t count, double scale, const hm_format* format,
+                            uint32_t* words) {
+  uint32_t clipped = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    int beyond = 0;
+    words[k] = (uint32_t)hm_code(values[k] * scale, format, &beyond);
+    clipped += (uint32_t)beyond;
+  }
+  return clipped;
+}
+
+uint32_t hm_codes(const double* values, uint32_t count, double scale, const hm_format* format,
+                  uint32_t* words) {
+  if (format->overflow != HM_SAT && format->overflow != HM_SAT_SYM)
+    return exact_codes(values, count, scale, format, words);
+  const rounding_rule rule = rule_of(format->rounding);
+  const int64_t high = most(format), low = format->overflow == HM_SAT_SYM ? -high : -high - 1;
+  if (rule.of_magnitude)
+    magnitude_codes(values, count, scale, rule, (double)low, (double)high, words);
+  else
+    signed_codes(values, count, scale, rule, (double)low, (double)high, words);
+  return count_clipped(values, count, scale, format, (uint32_t)low, (uint32_t)high, words);
+}
+
 int hm_room(double largest, const hm_format* f) {
   const double limit = (double)most(f) / hm_power_of_two(hm_fraction_bits(f));
   int shift = 0;

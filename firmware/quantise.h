@@ -26,6 +26,11 @@ int32_t hm_code(double counted, const hm_format* format, int* clipped);
 /* Raw code of value * 2^shift. */
 int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped);
 
+/* Many values at once: words[k] becomes hm_code(values[k] * scale), scale positive; returns how many did not
+ * fit. Bit for bit the same, in a fraction of the time where the format saturates. */
+uint32_t hm_codes(const double* values, uint32_t count, double scale, const hm_format* format,
+                  uint32_t* words);
+
 /* The largest shift for which `largest` * 2^shift still fits the format. */
 int hm_room(double largest, const hm_format* format);
 

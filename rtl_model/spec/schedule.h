@@ -3,45 +3,15 @@
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
-#include "rtl_model/spec/topology.h"
+#include "rtl_model/spec/colouring.h"
 
-#include <set>
-#include <tuple>
+#include <algorithm>
 
 namespace hopmesh::spec {
 
 /// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it,
 /// ascending.
 using Phases = std::vector<std::vector<std::uint32_t>>;
-
-/// Colours the cells so that no two joined cells share one (DSATUR; ties to the higher degree, then the lower
-/// number, so that every machine finds the same colouring). Two colours suffice exactly where the graph is
-/// bipartite.
-inline std::vector<std::uint32_t> colour_cells(const Topology& t) {
-  const std::size_t n = t.cells();
-  constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> colour(n, none);
-  std::vector<std::set<std::uint32_t>> seen(n);
-  using Key = std::tuple<long, long, std::size_t>;
-  const auto key = [&](std::size_t c) { return Key{-long(seen[c].size()), -long(t.degree(c)), c}; };
-  std::set<Key> waiting;
-  for (std::size_t c = 0; c < n; ++c) waiting.insert(key(c));
-  while (!waiting.empty()) {
-    const std::size_t c = std::get<2>(*waiting.begin());
-    waiting.erase(waiting.begin());
-    std::uint32_t free_colour = 0;
-    while (seen[c].count(free_colour)) ++free_colour;
-    colour[c] = free_colour;
-    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k) {
-      const std::size_t other = t.link_to[k];
-      if (colour[other] != none || seen[other].count(free_colour)) continue;
-      waiting.erase(key(other));
-      seen[other].insert(free_colour);
-      waiting.insert(key(other));
-    }
-  }
-  return colour;
-}
 
 /// Phases of one sweep. Coloured: colour by colour, within a colour component by component.
 /// Sequential: one neuron a phase, in number order. Synchronous: one phase.

@@ -237,9 +237,4 @@ std::string crest_png(std::uint32_t size) {
   return encode_png(draw_crest(size));
 }
 
-const std::string& flag_crest() {
-  static const std::string png = crest_png(512);
-  return png;
-}
-
 } // namespace hopmesh::record

@@ -1,4 +1,5 @@
-// The flag's own picture: a golden shield with a mesh of hops on deep blue cloth, drawn from formulas.
+// The flag's own picture: a golden shield with a mesh of hops on deep blue cloth, drawn from formulas. Drawn
+// once, when the program is built (flag_crest.h holds the result).
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,5 @@ std::string encode_png(const Picture& picture);
 
 /// The crest as PNG.
 std::string crest_png(std::uint32_t size);
-
-/// The one on every flag, 512 wide, ready to embed; drawn at the first call.
-const std::string& flag_crest();
 
 } // namespace hopmesh::record

@@ -2,19 +2,19 @@
 // and the animation moves the weight from one target to the next.
 #include "sim/record/gltf.h"
 
-#include "sim/record/crest.h"
+#include "sim/record/flag_crest.h"
 #include "sim/record/output_file.h"
 #include "sim/record/surface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <tiny_gltf.h>
 
 namespace hopmesh::record {
@@ -28,7 +28,10 @@ Floats minus(Floats a, const Floats& b) {
 /// Lays values into the one buffer, each run in a view of its own on a four-byte boundary.
 class Packer {
  public:
-  explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
+  Packer(tinygltf::Model& model, std::size_t bytes) : model_(model) {
+    model_.buffers.emplace_back();
+    model_.buffers[0].data.reserve(bytes);
+  }
 
   int view(const void* data, std::size_t bytes, int target) {
     auto& store = model_.buffers[0].data;
@@ -38,8 +41,8 @@ class Packer {
     view.byteOffset = store.size();
     view.byteLength = bytes;
     view.target = target;
-    store.resize(store.size() + bytes);
-    if (bytes > 0) std::memcpy(store.data() + view.byteOffset, data, bytes);
+    const auto* from = static_cast<const unsigned char*>(data);
+    store.insert(store.end(), from, from + bytes);
     model_.bufferViews.push_back(view);
     return static_cast<int>(model_.bufferViews.size()) - 1;
   }
@@ -84,7 +87,7 @@ class Packer {
 };
 
 void add_crest(tinygltf::Model& model, Packer& packer, tinygltf::Material& material) {
-  const std::string& png = flag_crest();
+  const std::string_view png = flag_crest();
   tinygltf::Image image;
   image.name = "crest";
   image.mimeType = "image/png";
@@ -164,6 +167,26 @@ tinygltf::Primitive primitive_of(const RunView& view, const std::vector<std::siz
   return primitive;
 }
 
+/// What the library streams goes straight into the file: a large mesh is in memory often enough.
+class IntoFile : public std::streambuf {
+ public:
+  explicit IntoFile(OutputFile& file) : file_(file) {}
+
+ protected:
+  std::streamsize xsputn(const char* data, std::streamsize bytes) override {
+    file_.write(data, static_cast<std::size_t>(bytes));
+    return bytes;
+  }
+  int_type overflow(int_type c) override {
+    const char byte = traits_type::to_char_type(c);
+    if (!traits_type::eq_int_type(c, traits_type::eof())) file_.write(&byte, 1);
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  OutputFile& file_;
+};
+
 /// JSON is UTF-8: bytes that are not become the replacement character.
 std::string valid_utf8(const std::string& text) {
   using nlohmann::json;
@@ -171,6 +194,11 @@ std::string valid_utf8(const std::string& text) {
 }
 
 } // namespace
+
+std::size_t glb_frames_of(std::size_t nodes) {
+  const std::size_t frame_bytes = std::max<std::size_t>(1, 6 * sizeof(float) * nodes);
+  return std::clamp<std::size_t>(glb_frame_bytes_at_most / frame_bytes, 2, glb_frames_at_most);
+}
 
 std::vector<std::size_t> frames_for_glb(const RunView& view) {
   std::vector<std::size_t> good;
@@ -184,10 +212,10 @@ std::vector<std::size_t> frames_for_glb(const RunView& view) {
                             static_cast<float>(view.frame_times[good.back()] - view.frame_times[good[0]]);
     if (finite && later && frame.size() == view.nodes * 3) good.push_back(f);
   }
-  if (good.size() <= glb_frames_at_most) return good;
+  const std::size_t most = glb_frames_of(view.nodes);
+  if (good.size() <= most) return good;
   std::vector<std::size_t> picked;
-  for (std::size_t k = 0; k < glb_frames_at_most; ++k)
-    picked.push_back(good[k * (good.size() - 1) / (glb_frames_at_most - 1)]);
+  for (std::size_t k = 0; k < most; ++k) picked.push_back(good[k * (good.size() - 1) / (most - 1)]);
   return picked;
 }
 
@@ -198,7 +226,8 @@ void write_glb(const RunView& view, const std::filesystem::path& path) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Hopmesh";
-  Packer packer(model);
+  // A mesh has about two triangles a node; a vertex is 32 bytes, and 24 more in each further frame.
+  Packer packer(model, view.nodes * (56 + 24 * frames.size()) + flag_crest().size() + (1u << 16));
   add_material(model, packer, view.crest && !view.triangles.empty());
   tinygltf::Mesh mesh;
   mesh.name = valid_utf8(view.title);
@@ -218,10 +247,13 @@ void write_glb(const RunView& view, const std::filesystem::path& path) {
     times.push_back(static_cast<float>(view.frame_times[f] - view.frame_times[frames[0]]));
   if (times.size() > 1) add_animation(model, packer, times);
 
-  std::ostringstream bytes;
-  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, bytes, false, true))
+  OutputFile file(path);
+  IntoFile bytes(file);
+  std::ostream stream(&bytes);
+  stream.exceptions(std::ios::badbit); // lets the file's own error through
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true))
     throw WriteError(fmt::format("{}: the animation cannot be encoded", path.string()));
-  write_file(path, bytes.str());
+  file.commit();
 }
 
 } // namespace hopmesh::record

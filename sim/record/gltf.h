@@ -12,6 +12,11 @@ namespace hopmesh::record {
 /// Morph targets cost memory in every viewer: at most this many frames are kept, picked evenly, first and
 /// last among them.
 constexpr std::size_t glb_frames_at_most = 60;
+/// Of all frames together, places and normals; a large mesh keeps fewer frames, but two at least.
+constexpr std::size_t glb_frame_bytes_at_most = 64u << 20;
+
+/// How many frames a mesh of so many nodes may keep.
+std::size_t glb_frames_of(std::size_t nodes);
 
 /// The frames write_glb keeps: evenly picked, and only such as have a finite place for every node and a later
 /// time.

@@ -3,9 +3,7 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
-#include <tuple>
 
 namespace hopmesh::record {
 namespace {
@@ -30,27 +28,35 @@ Surface lines_of(const RunView& view) {
 
 Surface surface_of(const RunView& view) {
   if (view.triangles.empty()) return lines_of(view);
+  constexpr std::uint32_t none = UINT32_MAX;
   Surface surface;
-  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
+  std::vector<std::uint32_t> first(view.nodes, none); // vertex of each node, then the node's others
+  std::vector<std::uint32_t> next;
+  surface.indices.reserve(3 * view.triangles.size());
   for (const auto& triangle : view.triangles)
     for (const ViewCorner& c : triangle) {
-      const auto next = static_cast<std::uint32_t>(surface.node.size());
-      const auto [at, is_new] = known.try_emplace({c.node, c.u, c.v}, next);
-      if (is_new) {
+      std::uint32_t* place = &first[c.node];
+      while (*place != none && !(surface.uv[2 * *place] == c.u && surface.uv[2 * *place + 1] == c.v))
+        place = &next[*place];
+      if (*place == none) {
+        *place = static_cast<std::uint32_t>(surface.node.size());
+        surface.indices.push_back(*place);
         surface.node.push_back(c.node);
         surface.uv.insert(surface.uv.end(), {c.u, c.v});
+        next.push_back(none); // moves what `place` may point into: last
+      } else {
+        surface.indices.push_back(*place);
       }
-      surface.indices.push_back(at->second);
     }
   return surface;
 }
 
 Floats positions_of(const RunView& view, const Surface& surface, std::size_t frame) {
-  Floats out;
-  out.reserve(surface.node.size() * 3);
+  Floats out(surface.node.size() * 3);
+  float* at = out.data();
   for (const auto node : surface.node) {
     const float* p = view.frames[frame].data() + std::size_t{node} * 3;
-    for (const float coordinate : turned(view.up, p[0], p[1], p[2])) out.push_back(coordinate);
+    for (const float coordinate : turned(view.up, p[0], p[1], p[2])) *at++ = coordinate;
   }
   return out;
 }

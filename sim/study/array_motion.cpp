@@ -2,6 +2,7 @@
 
 #include "firmware/registers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <xxhash.h>
 
@@ -59,18 +60,20 @@ void ArrayMotion::open() {
 
 StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
-  const auto x = memory_.position, v = memory_.velocity, a = memory_.acceleration;
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
-  if (check_) check_->begin(x.data(), v.data(), a.data(), memory_.output, step);
+  if (check_)
+    check_->begin(memory_.position.data(), memory_.velocity.data(), memory_.acceleration.data(),
+                  memory_.output, step);
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
   if (error == HM_ERROR_STOPPED) throw Stopped();
   if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
-  if (error != HM_OK) throw std::runtime_error(error_text(error));
+  if (error != HM_OK && error != HM_ERROR_LOST) throw std::runtime_error(error_text(error));
   port_.end_step(step);
-  keep_finite(x, v, a);
+  if (error == HM_ERROR_LOST)
+    throw Diverged("node " + std::to_string(result.lost_node) + " has no finite position");
 
   StepRow row;
   row.step = step;
@@ -80,20 +83,12 @@ StepRow ArrayMotion::advance() {
   row.converged = result.converged;
   row.clipped = driver_.clipped;
   row.bus_cycles = bus_cycles() - bus_before;
-  for (double V : memory_.output) row.saturated += std::fabs(V) >= 1;
+  row.saturated = static_cast<std::uint64_t>(std::count_if(memory_.output.begin(), memory_.output.end(),
+                                                           [](double V) { return std::fabs(V) >= 1; }));
   measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
   if (check_) row.error = check_->judge(memory_.state.network, memory_.start);
   row.hash = hash();
   return row;
-}
-
-void ArrayMotion::keep_finite(const std::vector<double>& x, const std::vector<double>& v,
-                              const std::vector<double>& a) {
-  for (std::size_t k = 0; k < memory_.position.size(); ++k) {
-    if (std::isfinite(memory_.position[k]) && std::isfinite(memory_.velocity[k])) continue;
-    memory_.position = x, memory_.velocity = v, memory_.acceleration = a;
-    throw Diverged("node " + std::to_string(k / 3) + " has no finite position");
-  }
 }
 
 std::uint64_t ArrayMotion::bus_cycles() const {
@@ -106,9 +101,10 @@ std::uint64_t ArrayMotion::bus_cycles() const {
 
 // Exact: V is a multiple of the state's last place.
 std::vector<std::int32_t> ArrayMotion::raw(const std::vector<double>& outputs) const {
-  int clipped = 0;
-  std::vector<std::int32_t> codes;
-  for (double V : outputs) codes.push_back(hm_quantise(V, 0, &driver_.state, &clipped));
+  std::vector<std::int32_t> codes(outputs.size());
+  hm_codes(outputs.data(), static_cast<std::uint32_t>(outputs.size()),
+           hm_power_of_two(hm_fraction_bits(&driver_.state)), &driver_.state,
+           reinterpret_cast<std::uint32_t*>(codes.data()));
   return codes;
 }
 

@@ -29,8 +29,6 @@ class ArrayMotion : public Motion {
   std::uint64_t bus_cycles() const;
   std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
   std::uint64_t hash() const;
-  void keep_finite(const std::vector<double>& before_x, const std::vector<double>& before_v,
-                   const std::vector<double>& before_a);
 
   const BuiltMesh& mesh_;
   ArrayPort& port_;

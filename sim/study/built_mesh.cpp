@@ -3,6 +3,7 @@
 #include "firmware/bus.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace hopmesh::study {
@@ -11,6 +12,7 @@ BuiltMesh::BuiltMesh(const scene::Scene& scene) : mesh_(scene::build_mesh(scene)
   number_cells();
   find_links();
   std::vector<double> sum(mesh_.nodes(), 0.0), count(mesh_.nodes(), 0.0);
+  springs_.reserve(mesh_.springs.size());
   for (const scene::Spring& s : mesh_.springs) {
     springs_.push_back(hm_spring{{s.node[0], s.node[1]}, s.weight, s.rest_length, {0, 0}});
     for (std::uint32_t node : s.node) sum[node] += s.weight, count[node] += 1;
@@ -43,22 +45,33 @@ void BuiltMesh::number_cells() {
   }
 }
 
+// Rows are counted, filled and sorted in one array. A pair that two springs join is one link.
 void BuiltMesh::find_links() {
   topology_.neurons_per_cell = mesh_.planar ? 2 : 3;
-  std::vector<std::vector<std::uint32_t>> neighbours(node_of_cell_.size());
-  for (const scene::Spring& s : mesh_.springs) {
-    const std::uint32_t a = cell_of_node_[s.node[0]], b = cell_of_node_[s.node[1]];
-    if (a == HM_PINNED || b == HM_PINNED) continue;
-    neighbours[a].push_back(b);
-    neighbours[b].push_back(a);
-  }
+  const auto for_each_link = [this](auto body) {
+    for (const scene::Spring& s : mesh_.springs) {
+      const std::uint32_t a = cell_of_node_[s.node[0]], b = cell_of_node_[s.node[1]];
+      if (a != HM_PINNED && b != HM_PINNED) body(a, b), body(b, a);
+    }
+  };
+  std::vector<std::uint32_t> end(node_of_cell_.size() + 1, 0); // of each row, once it is filled
+  for_each_link([&](std::uint32_t from, std::uint32_t) { end[from + 1] += 1; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<std::uint32_t>& link_to = topology_.link_to;
+  link_to.resize(end.back());
+  for_each_link([&](std::uint32_t from, std::uint32_t to) { link_to[end[from]++] = to; });
+
+  topology_.first_link.reserve(end.size());
   topology_.first_link.push_back(0);
-  for (auto& row : neighbours) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    topology_.link_to.insert(topology_.link_to.end(), row.begin(), row.end());
-    topology_.first_link.push_back(static_cast<std::uint32_t>(topology_.link_to.size()));
+  auto row = link_to.begin(), kept = link_to.begin();
+  for (std::size_t c = 0; c < node_of_cell_.size(); ++c) {
+    const auto row_end = link_to.begin() + end[c];
+    std::sort(row, row_end);
+    kept = std::unique_copy(row, row_end, kept);
+    row = row_end;
+    topology_.first_link.push_back(static_cast<std::uint32_t>(kept - link_to.begin()));
   }
+  link_to.erase(kept, link_to.end());
 }
 
 } // namespace hopmesh::study

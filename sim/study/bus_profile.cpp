@@ -2,6 +2,8 @@
 
 #include "firmware/registers.h"
 
+#include <algorithm>
+
 namespace hopmesh::study {
 
 BusProfile::BusProfile(const hm_bus& inner, const spec::ArraySpec& array)
@@ -39,11 +41,16 @@ void BusProfile::note(std::uint32_t address, const std::uint32_t* words, std::ui
                        : address >= HM_WINDOW_OUTPUT ? &ranges_[2]
                        : address >= HM_WINDOW_BIAS   ? &ranges_[1]
                                                      : nullptr;
-  for (std::uint32_t k = 0; range && k < count; ++k) {
+  if (!range) return;
+  std::int32_t least = 0,
+               largest = 0; // zero is always in the range; in words, several are compared at a time
+  for (std::uint32_t k = 0; k < count; ++k) {
     const auto code = static_cast<std::int32_t>(words[k]);
-    range->least = std::min<std::int64_t>(range->least, code);
-    range->largest = std::max<std::int64_t>(range->largest, code);
+    least = std::min(least, code);
+    largest = std::max(largest, code);
   }
+  range->least = std::min<std::int64_t>(range->least, least);
+  range->largest = std::max<std::int64_t>(range->largest, largest);
 }
 
 } // namespace hopmesh::study

@@ -15,15 +15,19 @@ double distance(const double* a, const double* b) {
 } // namespace
 
 void measure(const scene::Mesh& mesh, const double* x, const double* v, StepRow& row) {
-  row.energy = row.kinetic = row.max_strain = row.max_stretch = 0;
+  double energy = 0, kinetic = 0, strain = 0, stretch = 0;
   for (const scene::Spring& s : mesh.springs) {
     const double length = distance(x + 3 * s.node[0], x + 3 * s.node[1]);
-    const double born = distance(mesh.position[s.node[0]].data(), mesh.position[s.node[1]].data());
-    row.energy += s.weight * (length - s.rest_length) * (length - s.rest_length);
-    if (s.rest_length > 0) row.max_strain = std::max(row.max_strain, std::fabs(length / s.rest_length - 1));
-    row.max_stretch = std::max(row.max_stretch, length / (s.rest_length > 0 ? s.rest_length : born));
+    energy += s.weight * (length - s.rest_length) * (length - s.rest_length);
+    const bool at_rest = s.rest_length > 0; // else it is measured against how it was built
+    const double born =
+        at_rest ? s.rest_length : distance(mesh.position[s.node[0]].data(), mesh.position[s.node[1]].data());
+    const double ratio = length / born;
+    if (at_rest) strain = std::max(strain, std::fabs(ratio - 1));
+    stretch = std::max(stretch, ratio);
   }
-  for (std::size_t k = 0; k < 3 * mesh.nodes(); ++k) row.kinetic += 0.5 * mesh.mass * v[k] * v[k];
+  for (std::size_t k = 0; k < 3 * mesh.nodes(); ++k) kinetic += 0.5 * mesh.mass * v[k] * v[k];
+  row.energy = energy, row.kinetic = kinetic, row.max_strain = strain, row.max_stretch = stretch;
 }
 
 } // namespace hopmesh::study

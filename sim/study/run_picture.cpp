@@ -13,6 +13,8 @@ namespace {
 void add_surface(const scene::Mesh& mesh, record::RunView& view) {
   view.nodes = mesh.nodes();
   view.pinned = mesh.pinned;
+  view.triangles.reserve(mesh.triangles.size());
+  view.springs.reserve(mesh.springs.size());
   for (const auto& t : mesh.triangles) {
     std::array<record::ViewCorner, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = {t[k].node, t[k].u, t[k].v};
@@ -24,9 +26,7 @@ void add_surface(const scene::Mesh& mesh, record::RunView& view) {
 
 void add_frames(const std::filesystem::path& positions, double time_step, record::RunView& view) {
   record::NpyReader<double> file(positions);
-  const std::size_t rows = file.rows(), count = std::min(rows, most_frames);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t row = count == 1 ? 0 : k * (rows - 1) / (count - 1);
+  for (const std::size_t row : rows_shown(file.rows(), view.nodes)) {
     const auto values = file.row(row);
     view.frames.emplace_back(values.begin(), values.end());
     view.frame_steps.push_back(static_cast<double>(row));
@@ -103,6 +103,15 @@ FigureTable range_table(const std::vector<SignalRange>& ranges) {
 }
 
 } // namespace
+
+std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
+  const std::size_t frame_bytes = std::max<std::size_t>(1, 3 * sizeof(float) * nodes);
+  const std::size_t room = std::clamp<std::size_t>(most_frame_bytes / frame_bytes, 2, most_frames);
+  const std::size_t count = std::min(rows, room);
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < count; ++k) shown.push_back(count == 1 ? 0 : k * (rows - 1) / (count - 1));
+  return shown;
+}
 
 std::vector<FigureTable> run_tables(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
                                     const std::vector<SignalRange>& ranges) {

@@ -6,9 +6,13 @@
 
 namespace hopmesh::study {
 
-inline constexpr std::size_t most_frames = 240; ///< shown in the report; glTF takes fewer of them
+inline constexpr std::size_t most_frames = 240;            ///< shown in the report; glTF takes fewer of them
+inline constexpr std::size_t most_frame_bytes = 64u << 20; ///< of all frames together, but for two at least
 
-/// Frames are read back from positions.npy, evenly, first and last included.
+/// The rows of positions.npy that the report shows: evenly, first and last included.
+std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes);
+
+/// Frames are read back from positions.npy.
 record::RunView run_picture(const RunFacts& facts, const BuiltMesh& mesh, const RunResult& result,
                             const std::filesystem::path& positions, std::string manifest);
 

@@ -3,10 +3,12 @@
 namespace hopmesh::study {
 
 StepMemory::StepMemory(const BuiltMesh& mesh) {
+  position.reserve(3 * mesh.nodes());
   for (const auto& x : mesh.mesh().position) position.insert(position.end(), x.begin(), x.end());
   velocity.assign(position.size(), 0.0);
   acceleration = predicted = velocity;
   energy_change.assign(mesh.cells(), 0.0);
+  direction.assign(3 * mesh.cells(), 0.0);
   start.assign(mesh.cells() * mesh.components(), 0.0);
   bias = output = start;
   weight.assign(hm_weight_count(&mesh.firmware()), 0.0);
@@ -15,6 +17,7 @@ StepMemory::StepMemory(const BuiltMesh& mesh) {
   state.acceleration = acceleration.data();
   state.predicted = predicted.data();
   state.energy_change = energy_change.data();
+  state.direction = direction.data();
   state.start = start.data();
   state.network = {weight.data(), bias.data(), output.data()};
 }

@@ -14,6 +14,7 @@ struct StepMemory {
 
   std::vector<double> position, velocity, acceleration, predicted; ///< [nodes * 3]
   std::vector<double> energy_change;                               ///< [cells]
+  std::vector<double> direction;                                   ///< [cells * 3]
   std::vector<double> start, weight, bias, output;                 ///< as hm_network
   hm_state state{};
 };

@@ -1,5 +1,5 @@
 // Reads what the benchmarks wrote and prints what it means: figures, then requirement | measured | met?
-// With a third argument it draws the speeds as well. Exit code 1 where levels gave different bits or cycles,
+// With a fourth argument it draws the speeds as well. Exit code 1 where levels gave different bits or cycles,
 // or a benchmark failed; never for a time.
 #include "tests/bench/results.h"
 
@@ -69,6 +69,28 @@ void print_parts(const Results& r) {
   fmt::print("    {:<32}{:>8.3f} s {:>5.1f} %\n", "start, measures, files, report", bare - known,
              100 * (bare - known) / bare);
   fmt::print("  {:<34}{:>8.2f} s of processor more\n", "the reference check", checked - bare);
+}
+
+/// What is not the array: a step by parts, and what comes once a run.
+void print_host(const Results& r) {
+  fmt::print("\nThe host beside an array that costs nothing\n  "
+             "{:>9}{:>9}{:>8}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>9}{:>9}\n",
+             "nodes", "network", "load", "back", "motion", "measures", "record", "us/step", "mesh", "finish",
+             "peak");
+  for (const auto& name : r.names("host")) {
+    const auto at = [&](const char* counter) { return r.median("host/" + name, counter); };
+    double step = 0;
+    fmt::print("  {:>9}", name);
+    const std::vector<std::pair<const char*, int>> parts{{"network_us", 9},   {"load_us", 8},
+                                                         {"read_back_us", 8}, {"motion_us", 8},
+                                                         {"measures_us", 10}, {"record_us", 8}};
+    for (const auto& [part, width] : parts) {
+      fmt::print("{:>{}.4g}", at(part), width);
+      step += at(part);
+    }
+    fmt::print("{:>9.4g}{:>5.3g} ms{:>6.3g} ms{:>6.0f} MB\n", step, at("mesh_ms"), at("finish_ms"),
+               at("peak_mb"));
+  }
 }
 
 /// Least squares of MB over nodes.
@@ -179,6 +201,7 @@ int print_all(const Results& r, const std::string& picture_file) {
   if (r.errors().empty()) {
     print_speeds(r);
     print_parts(r);
+    print_host(r);
     double largest_mb = 0;
     const Line line = print_memory(r, largest_mb);
     print_requirements(r, line, largest_mb);
@@ -191,15 +214,14 @@ int print_all(const Results& r, const std::string& picture_file) {
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: bench_table ARRAY.json PROGRAM.json [PICTURE.svg]\n");
+  if (argc < 4) {
+    fmt::print(stderr, "usage: bench_table ARRAY.json PROGRAM.json HOST.json [PICTURE.svg]\n");
     return 2;
   }
   try {
     Results results;
-    results.read(argv[1]);
-    results.read(argv[2]);
-    return print_all(results, argc > 3 ? argv[3] : "");
+    for (int k = 1; k <= 3; ++k) results.read(argv[k]);
+    return print_all(results, argc > 4 ? argv[4] : "");
   } catch (const std::exception& e) {
     fmt::print(stderr, "bench: {}\n", e.what());
     return 1;

@@ -46,7 +46,9 @@ inline int room_for(double largest, const spec::NumberFormat& f) {
 
 class DriverTest : public testing::Test {
  protected:
-  DriverTest() : mesh(path_springs(), {false, false, false, true}, 2) {}
+  DriverTest() : DriverTest(path_springs(), {false, false, false, true}) {}
+  DriverTest(const std::vector<PlainSpring>& springs, const std::vector<bool>& pinned)
+      : mesh(springs, pinned, 2) {}
 
   /// open, in order. Bursts are as long as the buffer.
   void expect_open(const FakeArray& array) {

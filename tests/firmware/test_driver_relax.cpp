@@ -116,6 +116,41 @@ TEST_F(Relax, PrescaledRowsAreDividedByTheirSum) {
   EXPECT_EQ(driver.clipped, 1u); // +1 has no code in fixed<16,1>; -1 has
 }
 
+/// A hub with forty springs: its rows have 82 weights, more than the driver divides at a time.
+class RelaxHub : public DriverTest {
+ protected:
+  static std::vector<PlainSpring> spokes() {
+    std::vector<PlainSpring> springs;
+    for (std::uint32_t k = 1; k <= 40; ++k) springs.push_back({0, k, 1, 1});
+    return springs;
+  }
+  RelaxHub() : DriverTest(spokes(), std::vector<bool>(41, false)) {}
+};
+
+TEST_F(RelaxHub, LongPrescaledRowsAreDividedToTheEnd) {
+  for (std::size_t words : {7, 64, 4096}) {
+    buffer.resize(words);
+    FakeArray array;
+    array.normaliser = HM_NORMALISER_PRESCALED;
+    expect_open(array);
+    ASSERT_EQ(open(), HM_OK);
+    fill(0.9, 0.4);
+    const std::vector<double> weight = mesh.weight, bias = mesh.bias;
+    for (std::uint32_t c = 0; c < mesh.mesh.cells; ++c)
+      for (std::uint32_t p = 0; p < 2; ++p) {
+        const std::uint32_t first = hm_row_offset(&mesh.mesh, c, p), taps = hm_row_length(&mesh.mesh, c);
+        double norm = std::abs(bias[2 * c + p]);
+        for (std::uint32_t k = 0; k < taps; ++k) norm += std::abs(weight[first + k]);
+        for (std::uint32_t k = 0; k < taps; ++k) mesh.weight[first + k] /= norm;
+        mesh.bias[2 * c + p] /= norm;
+      }
+    for (double& v : mesh.output) v = 0.25;
+    expect_relax(array, 0, 0, 1, std::vector<std::uint32_t>(mesh.neurons(), 0));
+    mesh.weight = weight, mesh.bias = bias;
+    EXPECT_EQ(relax(0, 1), HM_OK) << words;
+  }
+}
+
 TEST_F(Relax, RefusesWhatIsNotFiniteBeforeTouchingTheBus) {
   open_with({});
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),

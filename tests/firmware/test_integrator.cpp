@@ -49,13 +49,14 @@ struct Moving {
     const std::size_t nodes = pair.scene.nodes();
     for (std::size_t k = 0; k < 3 * nodes; ++k) position.push_back(pair.scene.position[k / 3][k % 3]);
     velocity.resize(3 * nodes), acceleration.resize(3 * nodes), predicted.resize(3 * nodes);
+    direction.resize(3 * pair.firmware.mesh.cells), state.direction = direction.data();
     energy_change.resize(pair.firmware.mesh.cells), start.resize(pair.firmware.neurons());
     state.position = position.data(), state.velocity = velocity.data();
     state.acceleration = acceleration.data(), state.predicted = predicted.data();
     state.energy_change = energy_change.data(), state.start = start.data();
     state.network = pair.firmware.network;
   }
-  std::vector<double> position, velocity, acceleration, predicted, energy_change, start;
+  std::vector<double> position, velocity, acceleration, predicted, energy_change, direction, start;
   hm_state state{};
 };
 
@@ -131,6 +132,32 @@ TEST(Integrator, ASolversErrorLeavesTheMotionAlone) {
   EXPECT_EQ(moving.velocity, before.velocity);
   EXPECT_EQ(moving.acceleration, before.acceleration);
   EXPECT_EQ(moving.state.step, 0u);
+}
+
+/// Nothing of the state may have moved when a node would get no finite place or velocity, and it is named.
+TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
+  Dice dice(8);
+  Pair pair(random_scene_mesh(dice, false));
+  const hm_mesh& mesh = pair.firmware.mesh;
+  const hm_motion motion = random_motion(dice);
+  const hm_solver solver{nullptr, &relax_in_double};
+  for (std::uint32_t cell : {0u, mesh.cells / 2, mesh.cells - 1}) {
+    Moving moving(pair);
+    const std::uint32_t node = mesh.node_of_cell[cell];
+    hm_motion wild = motion;
+    wild.gamma = 0; // nobody else is pushed
+    wild.acceleration_memory = 0;
+    wild.friction = 1e308;
+    moving.velocity[3 * node] = 1e10;
+    const Moving before = moving;
+    hm_step_result result;
+    ASSERT_EQ(hm_step(&mesh, &wild, &solver, &moving.state, &result), HM_ERROR_LOST);
+    EXPECT_EQ(result.lost_node, node);
+    EXPECT_EQ(moving.position, before.position);
+    EXPECT_EQ(moving.velocity, before.velocity);
+    EXPECT_EQ(moving.acceleration, before.acceleration);
+    EXPECT_EQ(moving.state.step, 0u);
+  }
 }
 
 } // namespace

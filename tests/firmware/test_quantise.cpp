@@ -105,5 +105,82 @@ TEST(Quantise, RandomValuesAndFormats) {
   }
 }
 
+/// Codes and clips of hm_codes against hm_code, one by one.
+void expect_codes(const std::vector<double>& values, double scale, const NumberFormat& f,
+                  const std::string& where) {
+  const hm_format format = firmware_format(f);
+  std::vector<std::uint32_t> words(values.size());
+  const auto count = static_cast<std::uint32_t>(values.size());
+  const std::uint32_t clipped = hm_codes(values.data(), count, scale, &format, words.data());
+  std::uint32_t wanted_clipped = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    int beyond = 0;
+    const std::int32_t wanted = hm_code(values[k] * scale, &format, &beyond);
+    wanted_clipped += static_cast<std::uint32_t>(beyond);
+    ASSERT_EQ(static_cast<std::int32_t>(words[k]), wanted)
+        << f.text() << " " << std::hexfloat << values[k] << " * " << scale << " " << where;
+  }
+  ASSERT_EQ(clipped, wanted_clipped) << f.text() << " " << where;
+}
+
+/// Whole numbers, ties and what is just beside them, both ends of the format and beyond, tiny, huge,
+/// infinite.
+std::vector<double> corners(const NumberFormat& f) {
+  std::vector<double> values{0.0, 5e-324, 2.2250738585072014e-308, 1e-300, 0x1p-60, 0x1.fffffffffffffp-2};
+  const double high = static_cast<double>(f.max_raw());
+  for (double whole : {0.0, 1.0, 2.0, 3.0, 6.0, 7.0, 0x1p20, high - 1, high, high + 1, high + 2, 2 * high})
+    for (double half : {-0.5, 0.0, 0.5}) values.push_back(whole + half);
+  for (int e = 30; e < 64; ++e)
+    for (double beside : {-1.0, -0.5, 0.0, 0.5, 1.0}) values.push_back(std::ldexp(1.0, e) + beside);
+  for (int e = 64; e < 1024; e += 37) values.push_back(std::ldexp(1.0, e));
+  const std::size_t plain = values.size();
+  for (std::size_t k = 0; k < plain; ++k)
+    for (double toward : {-1e308, 1e308}) values.push_back(std::nextafter(values[k], toward));
+  const std::size_t positive = values.size();
+  for (std::size_t k = 0; k < positive; ++k) values.push_back(-values[k]);
+  return values;
+}
+
+TEST(Codes, CornersInEveryModeAndWidth) {
+  for (int width = 4; width <= 32; ++width)
+    for_every_mode(width, 2, [](const NumberFormat& f) {
+      const std::vector<double> values = corners(f);
+      expect_codes(values, 1.0, f, "corners");
+      expect_codes({values[3]}, 1.0, f, "one value");
+      expect_codes({}, 1.0, f, "no value");
+      for (double scale : {0x1p-900, 0x1p-3, 0x1p900}) expect_codes(values, scale, f, "scaled");
+    });
+}
+
+TEST(Codes, ScaledBeyondDoublesSaturates) {
+  for_every_mode(16, 2, [](const NumberFormat& f) {
+    if (f.overflow != Overflow::wrap) expect_codes({1e308, -1e308, 1e300, 0.0}, 0x1p1000, f, "infinite");
+  });
+}
+
+TEST(Codes, TenMillionRandomValuesInEveryMode) {
+  const std::uint64_t seed = 77;
+  Dice dice(seed);
+  std::vector<double> values(10000);
+  for (int round = 0; round < 1000; ++round) {
+    NumberFormat f;
+    f.width = static_cast<int>(dice.between(4, 32));
+    f.integer_bits = static_cast<int>(dice.between(1, f.width - 1));
+    f.rounding = static_cast<Rounding>(round % 7);
+    f.overflow = static_cast<Overflow>(round / 7 % 4);
+    const int spread = static_cast<int>(dice.between(-8, 3)) + f.width;
+    for (double& x : values) {
+      x = std::ldexp(dice.unit() * 2 - 1, spread - static_cast<int>(dice.below(8)));
+      if (dice.one_in(3)) x = std::round(2 * x) / 2;
+      if (dice.one_in(6)) x = std::nextafter(x, dice.one_in(2) ? 1e300 : -1e300);
+    }
+    const int shift = static_cast<int>(dice.between(-20, 20));
+    for (double& x : values) x = std::ldexp(x, -shift);
+    expect_codes(values, hm_power_of_two(shift), f,
+                 "seed " + std::to_string(seed) + ", round " + std::to_string(round));
+    if (HasFatalFailure()) return;
+  }
+}
+
 } // namespace
 } // namespace hopmesh::tests

@@ -1,5 +1,6 @@
 // The crest is a picture any program opens, and the same at every run.
 #include "sim/record/crest.h"
+#include "sim/record/flag_crest.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -8,7 +9,7 @@
 namespace hopmesh::record {
 namespace {
 
-Picture decoded(const std::string& file) {
+Picture decoded(std::string_view file) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()));
@@ -44,7 +45,7 @@ TEST(Crest, HasABlueFieldAndAGoldenShield) {
   EXPECT_GT(greens.size(), 100u) << "a blank picture has few values";
 }
 
-TEST(Crest, IsTheSameAtEveryCall) {
+TEST(Crest, TheOneInTheProgramIsWhatIsDrawn) {
   EXPECT_EQ(crest_png(512), flag_crest());
 }
 

@@ -143,6 +143,35 @@ TEST(Gltf, FramesArePickedEvenlyAndOnlyFiniteOnes) {
   EXPECT_EQ(loaded(view).meshes[0].primitives[0].targets.size(), 39u);
 }
 
+TEST(Gltf, LargeMeshesKeepFewerFramesWithinABudgetButTwoAtLeast) {
+  EXPECT_EQ(glb_frames_of(400), glb_frames_at_most);
+  EXPECT_EQ(glb_frames_of(0), glb_frames_at_most);
+  std::size_t before = glb_frames_at_most;
+  for (std::size_t nodes = 1000; nodes <= 1000000; nodes += 333) {
+    const std::size_t frames = glb_frames_of(nodes);
+    EXPECT_LE(frames, before);
+    EXPECT_GE(frames, 2u);
+    if (frames > 2) {
+      EXPECT_LE(frames * nodes * 24, glb_frame_bytes_at_most) << nodes; // six floats a node
+    }
+    if (frames < glb_frames_at_most) {
+      EXPECT_GT((frames + 1) * nodes * 24, glb_frame_bytes_at_most) << nodes;
+    }
+    before = frames;
+  }
+  EXPECT_EQ(before, 2u);
+}
+
+TEST(Gltf, ALargeMeshKeepsFirstAndLast) {
+  const std::size_t side = 240; // 57,600 nodes: 48 frames
+  RunView view = sample_run(side, 1, 1);
+  for (int f = 1; f < 60; ++f) view.frames.push_back(view.frames[0]), view.frame_times.push_back(f);
+  const auto picked = frames_for_glb(view);
+  EXPECT_EQ(picked.size(), 48u);
+  EXPECT_EQ(picked.front(), 0u);
+  EXPECT_EQ(picked.back(), 59u);
+}
+
 TEST(Gltf, WithoutTrianglesTheSpringsAreDrawn) {
   RunView view = sample_run(4, 3);
   view.triangles.clear();
@@ -163,6 +192,11 @@ TEST(Gltf, MotionWithoutOneGoodFrameIsRefused) {
   view.frames[0][0] = std::numeric_limits<float>::infinity();
   EXPECT_THROW(write_glb(view, folder / "mesh.glb"), WriteError);
   EXPECT_TRUE(folder.empty());
+}
+
+TEST(Gltf, AFullDiskIsTold) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  EXPECT_THROW(write_glb(sample_run(30, 60), "/dev/full"), WriteError);
 }
 
 TEST(Gltf, TitleMayHoldAnyBytes) {

@@ -1,5 +1,5 @@
 // Writes the sample run's report and animation for looking at: record_samples FOLDER. Not a test.
-#include "sim/record/crest.h"
+#include "sim/record/flag_crest.h"
 #include "sim/record/gltf.h"
 #include "sim/record/output_file.h"
 #include "sim/record/report.h"

@@ -1,5 +1,6 @@
 // Colours, phases and cycles: proper on any graph, and the numbers by hand on small ones.
 #include "tests/support/random_network.h"
+#include "tests/support/slow_colouring.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,46 @@ TEST(Schedule, NoTwoLinkedCellsShareAColour) {
       for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k)
         ASSERT_NE(colour[c], colour[t.link_to[k]]) << "seed " << seed << ", cell " << c;
   }
+}
+
+/// Any edge is there with the probability given.
+Topology random_graph(Dice& dice, std::size_t cells, double probability) {
+  Edges edges;
+  for (std::uint32_t a = 0; a < cells; ++a)
+    for (std::uint32_t b = a + 1; b < cells; ++b)
+      if (dice.unit() < probability) edges.push_back({a, b});
+  return topology_of(cells, 3, edges);
+}
+
+TEST(Schedule, ColoursAreThoseOfTheRuleCellByCell) {
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    Dice dice(seed);
+    const Topology t = random_topology(dice, 300);
+    ASSERT_EQ(spec::colour_cells(t), slow_colours(t)) << "seed " << seed;
+  }
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Dice dice(seed);
+    const Topology t = random_graph(dice, 1 + dice.below(200), dice.unit());
+    ASSERT_EQ(spec::colour_cells(t), slow_colours(t)) << "seed " << seed;
+  }
+}
+
+TEST(Schedule, ColoursOfLargeMeshesAreThoseOfTheRule) {
+  for (bool diagonals : {false, true}) // 4,900 cells: three layers of the set of numbers
+    EXPECT_EQ(spec::colour_cells(grid_topology(70, 70, diagonals)),
+              slow_colours(grid_topology(70, 70, diagonals)));
+}
+
+TEST(Schedule, MoreColoursThanAWordHasBits) {
+  Dice dice(1);
+  for (std::size_t cells : {64, 65, 66, 130}) {
+    const Topology all = random_graph(dice, cells, 1.0); // each knows all others: as many colours as cells
+    EXPECT_EQ(colours_of(all), cells);
+    EXPECT_EQ(spec::colour_cells(all), slow_colours(all)) << cells;
+  }
+  const Topology dense = random_graph(dice, 400, 0.9);
+  EXPECT_GT(colours_of(dense), 64u);
+  EXPECT_EQ(spec::colour_cells(dense), slow_colours(dense));
 }
 
 TEST(Schedule, BipartiteMeshesNeedTwoColours) {

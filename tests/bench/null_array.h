@@ -1,0 +1,47 @@
+// An array that costs nothing: it answers its registers, keeps its windows by memcpy, and is done at once
+// with the outputs it was loaded with. What a step takes on it is the host's share alone.
+#pragma once
+
+#include "sim/study/array_port.h"
+
+#include <chrono>
+
+namespace hopmesh::bench {
+
+/// Seconds of wall time of the host's work, by what the bus sees of it.
+struct HostSeconds {
+  double network = 0;   ///< predict and build, until the driver's first transfer
+  double load = 0;      ///< to codes and into the windows, until START
+  double read_back = 0; ///< counters and outputs
+  double motion = 0;    ///< probe and move, until the port is told that the step ended
+};
+
+class NullArray : public study::ArrayPort {
+ public:
+  NullArray(const spec::ArraySpec& array, const spec::Topology& topology);
+  NullArray(const NullArray&) = delete;
+  NullArray& operator=(const NullArray&) = delete;
+
+  const hm_bus& bus() override { return bus_; }
+  void begin_step(std::uint64_t) override { mark_ = Clock::now(); }
+  void end_step(std::uint64_t) override { lap(seconds.motion); }
+
+  HostSeconds seconds;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::uint32_t* window(std::uint32_t address);
+  std::uint32_t read_register(std::uint32_t offset);
+  void lap(double& part);
+
+  const spec::ArraySpec array_;
+  const spec::Topology& topology_;
+  std::vector<std::uint32_t> weight_, bias_, output_;
+  std::uint32_t outputs_left_ = 0; ///< words of the read-back still to come
+  bool loading_ = false;
+  Clock::time_point mark_;
+  hm_bus bus_{};
+};
+
+} // namespace hopmesh::bench
