@@ -1,6 +1,7 @@
 #include "sim/engine/fast_core.h"
 
 #include "sim/engine/aligned.h"
+#include "sim/engine/lanes.h"
 
 #include <atomic>
 #include <cstring>
@@ -55,36 +56,8 @@ std::string why_no_normaliser(const Plan& plan) {
 }
 
 KernelRounding kernel_rounding(int places, spec::Rounding mode) {
-  KernelRounding r;
-  r.places = places;
-  if (places == 0) return r;
-  const std::int64_t unit = std::int64_t{1} << places, half = unit / 2;
-  switch (mode) {
-  case spec::Rounding::trn:
-    break;
-  case spec::Rounding::trn_zero:
-    r.add_if_negative = unit - 1;
-    break;
-  case spec::Rounding::rnd:
-    r.add = half;
-    break;
-  case spec::Rounding::rnd_min_inf:
-    r.add = half - 1;
-    break;
-  case spec::Rounding::rnd_zero:
-    r.add = half - 1;
-    r.add_if_negative = 1;
-    break;
-  case spec::Rounding::rnd_inf:
-    r.add = half;
-    r.add_if_negative = -1;
-    break;
-  case spec::Rounding::rnd_conv:
-    r.add = half - 1;
-    r.add_if_odd = 1;
-    break;
-  }
-  return r;
+  const LaneRounding r = lane_rounding(places, mode);
+  return {r.add, r.add_if_negative, r.add_if_odd, r.places};
 }
 
 // Toward zero and away from it by turning negative numbers round; down at a tie by turning all of them.

@@ -1,6 +1,8 @@
-// Any array that the description allows, written for the reader first: rows in lanes, 64-bit sums, 128-bit
-// steps where a format asks for them.
+// Any array that the description allows: rows in lanes, 64 bits where they hold every code that the memories
+// can hold, 128 where a format asks for them.
+#include "sim/engine/aligned.h"
 #include "sim/engine/core.h"
+#include "sim/engine/lanes.h"
 #include "sim/engine/rounding.h"
 
 #include <cstdlib>
@@ -10,6 +12,7 @@ namespace hopmesh::engine {
 namespace {
 
 constexpr std::size_t L = block_lanes;
+static_assert(L == lane_count);
 
 int bit_length(std::uint64_t x) {
   return x == 0 ? 0 : 64 - __builtin_clzll(x);
@@ -19,7 +22,8 @@ class GenericCore : public Core {
  public:
   GenericCore(const Plan& plan, const Layout& layout)
       : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
-        narrow_sums_(plan.exact || plan.sum_up <= 52), narrow_product_(product_bits() <= 62) {
+        to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
+        to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)) {
     const std::size_t neurons = layout.slots() * per_cell_;
     first_weight_.assign(1, 0);
     for (std::uint32_t n : layout.neighbours)
@@ -31,6 +35,7 @@ class GenericCore : public Core {
     norm_.assign(neurons, 0);
     reciprocal_ = norm_;
     places_.assign(neurons, 0);
+    choose_widths();
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
@@ -45,7 +50,8 @@ class GenericCore : public Core {
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
     state_[place(slot, p)] = code;
-    link_[slot * per_cell_ + p] = link_of(code);
+    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(
+        round_shift<std::int64_t>(code, plan_.link_down, plan_.formats.link.rounding));
   }
   std::int32_t state(std::size_t slot, std::size_t p) const override { return state_[place(slot, p)]; }
 
@@ -61,7 +67,7 @@ class GenericCore : public Core {
     }
   }
   void end_sweep() override {
-    if (plan_.schedule == spec::Schedule::synchronous) link_.swap(next_link_);
+    if (synchronous()) link_.swap(next_link_);
   }
   void keep_outputs() override { kept_ = {state_, link_}; }
   void restore_outputs() override {
@@ -74,6 +80,7 @@ class GenericCore : public Core {
   const char* name() const override { return "generic"; }
 
  private:
+  bool synchronous() const { return plan_.schedule == spec::Schedule::synchronous; }
   std::size_t taps_of(std::size_t neighbours) const { return per_cell_ * (1 + neighbours); }
   std::size_t place(std::size_t slot, std::size_t p) const {
     return (slot / L * per_cell_ + p) * L + slot % L;
@@ -82,142 +89,178 @@ class GenericCore : public Core {
     const std::size_t b = slot / L;
     return first_weight_[b] + (p * taps_of(layout_.neighbours[b]) + tap) * L + slot % L;
   }
-  int product_bits() const { return plan_.formats.accumulator.width + plan_.reciprocal_bits; }
 
-  std::int32_t link_of(std::int64_t state) const {
-    return static_cast<std::int32_t>(round_shift(state, plan_.link_down, plan_.formats.link.rounding));
-  }
-
-  void prepare_rows(std::size_t b, std::size_t p) {
-    const std::size_t taps = taps_of(layout_.neighbours[b]);
-    for (std::size_t l = 0; l < L; ++l) {
-      const std::size_t at = (b * per_cell_ + p) * L + l;
-      const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L + l];
-      std::uint64_t sum = 0;
-      for (std::size_t t = 0; t < taps; ++t)
-        sum += static_cast<std::uint64_t>(std::abs(std::int64_t{w[t * L]}));
-      const std::uint64_t norm =
-          (sum << plan_.weight_up) +
-          (static_cast<std::uint64_t>(std::abs(std::int64_t{bias_[at]})) << plan_.bias_up);
-      norm_[at] = static_cast<std::int64_t>(norm);
-      if (norm == 0) continue;
-      const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
-      reciprocal_[at] = static_cast<std::int64_t>((Int128{1} << exponent) / static_cast<Int128>(norm));
-      places_[at] = exponent - plan_.ratio_up;
-    }
-  }
-
-  // The inputs of the block's rows, tap by tap.
-  void gather(std::size_t b, std::int32_t* in) const {
-    const std::size_t P = per_cell_;
-    for (std::size_t l = 0; l < L; ++l)
-      for (std::size_t q = 0; q < P; ++q) in[q * L + l] = link_[(b * L + l) * P + q];
-    const std::uint32_t* source = layout_.source.data() + layout_.first_source[b];
-    for (std::size_t k = 0; k < layout_.neighbours[b]; ++k)
-      for (std::size_t l = 0; l < L; ++l)
-        for (std::size_t q = 0; q < P; ++q) in[((k + 1) * P + q) * L + l] = link_[source[k * L + l] * P + q];
-  }
-
-  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept) {
-    std::int64_t sum[L];
-    const std::size_t taps = taps_of(layout_.neighbours[b]), first = (b * per_cell_ + p) * L;
-    const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L];
-    if (plan_.exact)
-      sum_exactly(w, in, taps, &bias_[first], sum);
-    else if (narrow_sums_)
-      sum_with_loss<std::int64_t>(w, in, taps, &bias_[first], sum);
-    else
-      sum_with_loss<Int128>(w, in, taps, &bias_[first], sum);
-    for (std::size_t l = 0; l < L; ++l) finish(first + l, sum[l], swept);
-    publish(b, p, &state_[first], in);
-  }
-
+  void choose_widths();
+  void prepare_rows(std::size_t b, std::size_t p);
+  void invert(std::size_t at, std::uint64_t norm);
+  void gather(std::size_t b, std::int32_t* in) const;
+  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept);
   void sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps, const std::int32_t* bias,
-                   std::int64_t* sum) const {
-    std::int64_t products[L] = {};
-    for (std::size_t t = 0; t < taps; ++t)
-      for (std::size_t l = 0; l < L; ++l) products[l] += std::int64_t{w[t * L + l]} * in[t * L + l];
-    for (std::size_t l = 0; l < L; ++l)
-      sum[l] =
-          shifted_up(std::int64_t{bias[l]}, -plan_.bias_down) + shifted_up(products[l], plan_.product_up);
-  }
-
-  // The register is written once a beat, and each time rounded.
-  template <typename Int>
+                   std::int64_t* sum) const;
   void sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
-                     const std::int32_t* bias, std::int64_t* sum) const {
-    const spec::NumberFormat& f = plan_.formats.accumulator;
-    const auto lanes = static_cast<std::size_t>(plan_.lanes);
-    for (std::size_t l = 0; l < L; ++l)
-      sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
-    for (std::size_t t = 0; t < taps; t += lanes) {
-      std::int64_t products[L] = {};
-      for (std::size_t k = t; k < std::min(taps, t + lanes); ++k)
-        for (std::size_t l = 0; l < L; ++l) products[l] += std::int64_t{w[k * L + l]} * in[k * L + l];
-      for (std::size_t l = 0; l < L; ++l) {
-        const Int fine =
-            shifted_up<Int>(sum[l], plan_.sum_up) + shifted_up<Int>(products[l], plan_.product_up);
-        sum[l] = limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
-      }
-    }
-  }
-
-  std::int64_t drive_of(std::size_t at, std::int64_t sum) const {
-    const spec::NumberFormat& f = plan_.formats.drive;
-    Int128 u = 0;
-    if (plan_.normaliser == spec::Normaliser::prescaled)
-      u = round_shift<Int128>(sum, plan_.scaled_down, f.rounding);
-    else if (norm_[at] != 0 && plan_.normaliser == spec::Normaliser::divider)
-      u = quotient(sum, norm_[at], f.rounding);
-    else if (norm_[at] != 0 && narrow_product_ && places_[at] < 62)
-      u = round_shift<std::int64_t>(sum * reciprocal_[at], places_[at], f.rounding);
-    else if (norm_[at] != 0)
-      u = round_shift<Int128>(Int128{sum} * reciprocal_[at], places_[at], f.rounding);
-    const std::int64_t code = limit_to_format(u, f);
-    return std::min(std::max(code, -plan_.one_drive), plan_.one_drive);
-  }
-
-  Int128 quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const {
-    const int up = plan_.ratio_up;
-    if (up < 0) return round_quotient<Int128>(sum, Int128{norm} << -up, mode);
-    if (plan_.formats.accumulator.width + up <= 60 && bit_length(static_cast<std::uint64_t>(norm)) <= 60)
-      return round_quotient<std::int64_t>(shifted_up(sum, up), norm, mode);
-    return round_quotient<Int128>(shifted_up<Int128>(sum, up), norm, mode);
-  }
-
-  void finish(std::size_t at, std::int64_t sum, Swept& swept) {
-    const std::int64_t u = drive_of(at, sum), V = state_[at];
-    const std::int64_t R = u >= 0 ? plan_.one_state - V : plan_.one_state + V;
-    const std::int64_t change =
-        round_shift(R * u, plan_.formats.drive.fraction_bits(), plan_.formats.state.rounding);
-    state_[at] = static_cast<std::int32_t>(V + change);
-    swept.largest = std::max(swept.largest, change < 0 ? -change : change);
-    swept.extremes.merge({sum, sum, u, u});
-  }
-
-  // Coloured and sequential: the cell's next neuron reads what this one has become.
-  void publish(std::size_t b, std::size_t p, const std::int32_t* state, std::int32_t* in) {
-    const bool later = plan_.schedule == spec::Schedule::synchronous;
-    auto& link = later ? next_link_ : link_;
-    for (std::size_t l = 0; l < L; ++l) {
-      const std::int32_t code = link_of(state[l]);
-      link[(b * L + l) * per_cell_ + p] = code;
-      if (!later) in[p * L + l] = code;
-    }
-  }
+                     const std::int32_t* bias, std::int64_t* sum) const;
+  void drives(std::size_t at, const std::int64_t* sum, std::int64_t* u) const;
+  std::int64_t wide_drive(std::size_t at, std::int64_t sum) const;
+  Int128 quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const;
 
   const Plan& plan_;
   const Layout& layout_;
   const std::size_t per_cell_;
-  const bool narrow_sums_, narrow_product_;
-  std::vector<std::size_t> first_weight_;       ///< of a block
-  std::vector<std::int32_t> weight_;            ///< [block][p][tap][lane]
-  std::vector<std::int32_t> bias_, state_;      ///< [block][p][lane]
-  std::vector<std::int32_t> link_, next_link_;  ///< [slot][p]
-  std::vector<std::int64_t> norm_, reciprocal_; ///< [block][p][lane]
-  std::vector<int> places_;                     ///< that s times the reciprocal is moved down
-  std::array<std::vector<std::int32_t>, 2> kept_;
+  const LaneRounding to_state_, to_link_;
+  LaneRounding to_sum_, to_drive_;
+  bool narrow_sums_ = false;                 ///< a rounding accumulator stays within 63 bits
+  bool narrow_drives_ = false;               ///< so does s on its way to u, and all reciprocals share a point
+  int norm_bits_ = 0;                        ///< of the largest N that these formats can make
+  std::vector<std::size_t> first_weight_;    ///< of a block
+  AlignedVector<std::int32_t> weight_;       ///< [block][p][tap][lane]
+  AlignedVector<std::int32_t> bias_, state_; ///< [block][p][lane]
+  AlignedVector<std::int32_t> link_, next_link_;  ///< [p][slot]
+  AlignedVector<std::int64_t> norm_, reciprocal_; ///< [block][p][lane]
+  std::vector<int> places_;                       ///< that s times the reciprocal is moved down
+  std::array<AlignedVector<std::int32_t>, 2> kept_;
 };
+
+// What of the general rule 64 bits can hold, for every code that the memories can hold.
+void GenericCore::choose_widths() {
+  const spec::Formats& f = plan_.formats;
+  const auto most_weight = std::uint64_t{1} << (f.weight.width - 1);
+  const auto most_bias = std::uint64_t{1} << (f.bias.width - 1);
+  norm_bits_ =
+      bit_length(((plan_.most_taps * most_weight) << plan_.weight_up) + (most_bias << plan_.bias_up));
+  narrow_sums_ = !plan_.exact && plan_.sum_up <= 52;
+  if (narrow_sums_) to_sum_ = lane_rounding(plan_.sum_up, f.accumulator.rounding);
+  if (plan_.normaliser == spec::Normaliser::prescaled && plan_.scaled_down >= 0) {
+    narrow_drives_ = true;
+    to_drive_ = lane_rounding(plan_.scaled_down, f.drive.rounding);
+  }
+  const int places = norm_bits_ + plan_.reciprocal_bits - 2 - plan_.ratio_up;
+  const int multiplier =
+      norm_bits_ + plan_.reciprocal_bits; // bits of r, moved to the point of the widest N's
+  const int above = std::max(f.drive.fraction_bits() - plan_.ratio_up, 0); // from N's last place to that of s
+  const int product = plan_.exact ? above + multiplier : f.accumulator.width + multiplier; // exact: |s| <= N
+  if (plan_.normaliser == spec::Normaliser::reciprocal && places >= 0 && places <= 60 && multiplier <= 61 &&
+      product <= 61) {
+    narrow_drives_ = true;
+    to_drive_ = lane_rounding(places, f.drive.rounding);
+  }
+}
+
+void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
+  const std::size_t taps = taps_of(layout_.neighbours[b]);
+  for (std::size_t l = 0; l < L; ++l) {
+    const std::size_t at = (b * per_cell_ + p) * L + l;
+    const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L + l];
+    std::uint64_t sum = 0;
+    for (std::size_t t = 0; t < taps; ++t)
+      sum += static_cast<std::uint64_t>(std::abs(std::int64_t{w[t * L]}));
+    invert(at, (sum << plan_.weight_up) +
+                   (static_cast<std::uint64_t>(std::abs(std::int64_t{bias_[at]})) << plan_.bias_up));
+  }
+}
+
+void GenericCore::invert(std::size_t at, std::uint64_t norm) {
+  norm_[at] = static_cast<std::int64_t>(norm);
+  reciprocal_[at] = 0;
+  if (norm == 0 || plan_.normaliser != spec::Normaliser::reciprocal) return;
+  const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
+  const auto r = static_cast<std::int64_t>((Int128{1} << exponent) / static_cast<Int128>(norm));
+  reciprocal_[at] = narrow_drives_ ? r << (norm_bits_ - bit_length(norm)) : r;
+  places_[at] = exponent - plan_.ratio_up;
+}
+
+// The inputs of the block's rows, tap by tap.
+void GenericCore::gather(std::size_t b, std::int32_t* in) const {
+  const std::uint32_t* source = layout_.source.data() + layout_.first_source[b];
+  for (std::size_t q = 0; q < per_cell_; ++q) {
+    const std::int32_t* plane = &link_[q * layout_.slots()];
+    std::copy_n(plane + b * L, L, in + q * L);
+    for (std::size_t k = 0; k < layout_.neighbours[b]; ++k)
+      gather_lanes(plane, source + k * L, in + ((k + 1) * per_cell_ + q) * L);
+  }
+}
+
+// Coloured and sequential: the cell's next neuron reads what this one has become.
+void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept) {
+  alignas(64) std::int64_t sum[L], u[L];
+  const std::size_t taps = taps_of(layout_.neighbours[b]), first = (b * per_cell_ + p) * L;
+  const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L];
+  if (plan_.exact)
+    sum_exactly(w, in, taps, &bias_[first], sum);
+  else
+    sum_with_loss(w, in, taps, &bias_[first], sum);
+  drives(first, sum, u);
+  Extremes& x = swept.extremes;
+  LaneSwings sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
+  swing_lanes(sum, sums);
+  swing_lanes(u, driven);
+  x = {sums.least, sums.largest, driven.least, driven.largest};
+  std::int32_t* link = &(synchronous() ? next_link_ : link_)[p * layout_.slots() + b * L];
+  swept.largest =
+      std::max(swept.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
+  if (!synchronous()) std::copy_n(link, L, in + p * L);
+}
+
+void GenericCore::sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
+                              const std::int32_t* bias, std::int64_t* sum) const {
+  alignas(64) std::int64_t products[L] = {};
+  add_lane_products(w, in, taps, products);
+  for (std::size_t l = 0; l < L; ++l) sum[l] = bias[l];
+  shift_and_add_lanes(sum, -plan_.bias_down, products, plan_.product_up);
+}
+
+// The register is written once a beat, and each time rounded.
+void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
+                                const std::int32_t* bias, std::int64_t* sum) const {
+  const spec::NumberFormat& f = plan_.formats.accumulator;
+  const auto lanes = static_cast<std::size_t>(plan_.lanes);
+  for (std::size_t l = 0; l < L; ++l)
+    sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+  for (std::size_t t = 0; t < taps; t += lanes) {
+    alignas(64) std::int64_t products[L] = {};
+    add_lane_products(w + t * L, in + t * L, std::min(taps - t, lanes), products);
+    if (narrow_sums_) {
+      shift_and_add_lanes(sum, plan_.sum_up, products, plan_.product_up);
+      round_lanes(sum, to_sum_);
+      limit_lanes(sum, f);
+      continue;
+    }
+    for (std::size_t l = 0; l < L; ++l) {
+      const Int128 fine =
+          shifted_up<Int128>(sum[l], plan_.sum_up) + shifted_up<Int128>(products[l], plan_.product_up);
+      sum[l] = limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
+    }
+  }
+}
+
+void GenericCore::drives(std::size_t first, const std::int64_t* sum, std::int64_t* u) const {
+  if (narrow_drives_) {
+    std::copy_n(sum, L, u);
+    if (plan_.normaliser == spec::Normaliser::reciprocal) multiply_lanes(u, &reciprocal_[first]);
+    round_lanes(u, to_drive_);
+    limit_lanes(u, plan_.formats.drive);
+  } else {
+    for (std::size_t l = 0; l < L; ++l) u[l] = wide_drive(first + l, sum[l]);
+  }
+  clamp_lanes(u, plan_.one_drive);
+}
+
+std::int64_t GenericCore::wide_drive(std::size_t at, std::int64_t sum) const {
+  const spec::NumberFormat& f = plan_.formats.drive;
+  if (plan_.normaliser == spec::Normaliser::prescaled)
+    return limit_to_format(round_shift<Int128>(sum, plan_.scaled_down, f.rounding), f);
+  if (norm_[at] == 0) return 0;
+  if (plan_.normaliser == spec::Normaliser::divider)
+    return limit_to_format(quotient(sum, norm_[at], f.rounding), f);
+  return limit_to_format(round_shift<Int128>(Int128{sum} * reciprocal_[at], places_[at], f.rounding), f);
+}
+
+Int128 GenericCore::quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const {
+  const int up = plan_.ratio_up;
+  if (up < 0) return round_quotient<Int128>(sum, Int128{norm} << -up, mode);
+  if (plan_.formats.accumulator.width + up <= 60 && norm_bits_ <= 60)
+    return round_quotient<std::int64_t>(shifted_up(sum, up), norm, mode);
+  return round_quotient<Int128>(shifted_up<Int128>(sum, up), norm, mode);
+}
 
 } // namespace
 

@@ -1,0 +1,41 @@
+// Steps of the generic core over sixteen lanes: plain loops that the compiler turns into wide instructions,
+// once for each kind of processor.
+#pragma once
+
+#include "rtl_model/spec/number_format.h"
+
+#include <cstddef>
+
+namespace hopmesh::engine {
+
+inline constexpr std::size_t lane_count = 16;
+
+/// x * 2^-places rounded, as a floor after something was added; places >= 0, and all fits 63 bits.
+struct LaneRounding {
+  std::int64_t add = 0, add_if_negative = 0, add_if_odd = 0;
+  int places = 0;
+};
+LaneRounding lane_rounding(int places, spec::Rounding mode);
+
+struct LaneSwings {
+  std::int64_t least, largest;
+};
+
+/// link[tap] <- plane[slot]: the inputs of sixteen rows from one plane of outputs.
+void gather_lanes(const std::int32_t* plane, const std::uint32_t* slots, std::int32_t* links);
+/// sums += weights * links over `taps` rows of lanes.
+void add_lane_products(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
+                       std::int64_t* sums);
+/// x <- x * 2^up + more * 2^more_up.
+void shift_and_add_lanes(std::int64_t* x, int up, const std::int64_t* more, int more_up);
+void multiply_lanes(std::int64_t* x, const std::int64_t* factor);
+void round_lanes(std::int64_t* x, const LaneRounding& rounding);
+/// Each code brought into the format's range.
+void limit_lanes(std::int64_t* x, const spec::NumberFormat& format);
+void clamp_lanes(std::int64_t* x, std::int64_t bound);
+void swing_lanes(const std::int64_t* x, LaneSwings& swings);
+/// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.
+std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const LaneRounding& to_state,
+                          const LaneRounding& to_link, std::int32_t* state, std::int32_t* link);
+
+} // namespace hopmesh::engine
