@@ -91,6 +91,7 @@ class GenericCore : public Core {
   }
 
   void choose_widths();
+  bool divides_narrowly() const;
   void prepare_rows(std::size_t b, std::size_t p);
   void invert(std::size_t at, std::uint64_t norm);
   void gather(std::size_t b, std::int32_t* in) const;
@@ -129,6 +130,7 @@ void GenericCore::choose_widths() {
       bit_length(((plan_.most_taps * most_weight) << plan_.weight_up) + (most_bias << plan_.bias_up));
   narrow_sums_ = !plan_.exact && plan_.sum_up <= 52;
   if (narrow_sums_) to_sum_ = lane_rounding(plan_.sum_up, f.accumulator.rounding);
+  if (divides_narrowly()) narrow_drives_ = true;
   if (plan_.normaliser == spec::Normaliser::prescaled && plan_.scaled_down >= 0) {
     narrow_drives_ = true;
     to_drive_ = lane_rounding(plan_.scaled_down, f.drive.rounding);
@@ -143,6 +145,12 @@ void GenericCore::choose_widths() {
     narrow_drives_ = true;
     to_drive_ = lane_rounding(places, f.drive.rounding);
   }
+}
+
+// With an exact accumulator |s| <= N, so a quotient has no more places than the drive.
+bool GenericCore::divides_narrowly() const {
+  return plan_.normaliser == spec::Normaliser::divider && plan_.exact && plan_.ratio_up >= 0 &&
+         norm_bits_ + plan_.formats.drive.fraction_bits() <= 60;
 }
 
 void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
@@ -215,15 +223,11 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
   const auto lanes = static_cast<std::size_t>(plan_.lanes);
   for (std::size_t l = 0; l < L; ++l)
     sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+  if (narrow_sums_)
+    return add_lane_groups(w, in, taps, lanes, plan_.sum_up, plan_.product_up, to_sum_, f, sum);
   for (std::size_t t = 0; t < taps; t += lanes) {
     alignas(64) std::int64_t products[L] = {};
     add_lane_products(w + t * L, in + t * L, std::min(taps - t, lanes), products);
-    if (narrow_sums_) {
-      shift_and_add_lanes(sum, plan_.sum_up, products, plan_.product_up);
-      round_lanes(sum, to_sum_);
-      limit_lanes(sum, f);
-      continue;
-    }
     for (std::size_t l = 0; l < L; ++l) {
       const Int128 fine =
           shifted_up<Int128>(sum[l], plan_.sum_up) + shifted_up<Int128>(products[l], plan_.product_up);
@@ -233,13 +237,15 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
 }
 
 void GenericCore::drives(std::size_t first, const std::int64_t* sum, std::int64_t* u) const {
-  if (narrow_drives_) {
-    std::copy_n(sum, L, u);
+  std::copy_n(sum, L, u);
+  if (!narrow_drives_) {
+    for (std::size_t l = 0; l < L; ++l) u[l] = wide_drive(first + l, sum[l]);
+  } else if (plan_.normaliser == spec::Normaliser::divider) {
+    divide_lanes(u, plan_.ratio_up, &norm_[first], plan_.formats.drive.rounding);
+  } else {
     if (plan_.normaliser == spec::Normaliser::reciprocal) multiply_lanes(u, &reciprocal_[first]);
     round_lanes(u, to_drive_);
     limit_lanes(u, plan_.formats.drive);
-  } else {
-    for (std::size_t l = 0; l < L; ++l) u[l] = wide_drive(first + l, sum[l]);
   }
   clamp_lanes(u, plan_.one_drive);
 }
@@ -257,8 +263,6 @@ std::int64_t GenericCore::wide_drive(std::size_t at, std::int64_t sum) const {
 Int128 GenericCore::quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const {
   const int up = plan_.ratio_up;
   if (up < 0) return round_quotient<Int128>(sum, Int128{norm} << -up, mode);
-  if (plan_.formats.accumulator.width + up <= 60 && norm_bits_ <= 60)
-    return round_quotient<std::int64_t>(shifted_up(sum, up), norm, mode);
   return round_quotient<Int128>(shifted_up<Int128>(sum, up), norm, mode);
 }
 

@@ -16,6 +16,42 @@ namespace {
   return (x + r.add + ((x >> 63) & r.add_if_negative) + ((x >> r.places) & r.add_if_odd)) >> r.places;
 }
 
+/// What overflow does, as numbers that a loop over lanes can use: kept as it is in [low, high]; else the low
+/// bits of a word (wrap), nothing (zero), or the nearer end.
+struct LaneLimit {
+  explicit LaneLimit(const spec::NumberFormat& f)
+      : low(f.min_raw()), high(f.max_raw()), unused(f.overflow == spec::Overflow::wrap ? 64 - f.width : 0),
+        zero(f.overflow == spec::Overflow::sat_zero) {}
+  std::int64_t low, high;
+  int unused;
+  bool zero;
+};
+
+template <bool wrap, bool zero>
+[[gnu::always_inline]] inline std::int64_t limited(std::int64_t x, const LaneLimit& f) {
+  if (wrap) return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) << f.unused) >> f.unused;
+  if (zero) return f.low <= x && x <= f.high ? x : 0;
+  return x < f.low ? f.low : x > f.high ? f.high : x;
+}
+
+template <bool wrap, bool zero>
+[[gnu::always_inline]] inline void add_groups(const std::int32_t* weights, const std::int32_t* links,
+                                              std::size_t taps, std::size_t group, std::int64_t by,
+                                              std::int64_t product_by, const LaneRounding& r,
+                                              const LaneLimit& limit, std::int64_t* x) {
+  std::int64_t sum[lane_count];
+  for (std::size_t l = 0; l < lane_count; ++l) sum[l] = x[l];
+  for (std::size_t t = 0; t < taps;) {
+    std::int64_t products[lane_count] = {};
+    const std::size_t end = t + group < taps ? t + group : taps;
+    for (; t < end; ++t, weights += lane_count, links += lane_count)
+      for (std::size_t l = 0; l < lane_count; ++l) products[l] += std::int64_t{weights[l]} * links[l];
+    for (std::size_t l = 0; l < lane_count; ++l)
+      sum[l] = limited<wrap, zero>(rounded(sum[l] * by + products[l] * product_by, r), limit);
+  }
+  for (std::size_t l = 0; l < lane_count; ++l) x[l] = sum[l];
+}
+
 } // namespace
 
 LaneRounding lane_rounding(int places, spec::Rounding mode) {
@@ -80,16 +116,51 @@ HM_WIDEST void round_lanes(std::int64_t* __restrict x, const LaneRounding& round
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = rounded(x[l], r);
 }
 
-HM_WIDEST void limit_lanes(std::int64_t* __restrict x, const spec::NumberFormat& f) {
-  const std::int64_t high = f.max_raw(), low = f.min_raw();
-  const int unused = 64 - f.width;
-  if (f.overflow == spec::Overflow::wrap)
-    for (std::size_t l = 0; l < lane_count; ++l)
-      x[l] = static_cast<std::int64_t>(static_cast<std::uint64_t>(x[l]) << unused) >> unused;
-  else if (f.overflow == spec::Overflow::sat_zero)
-    for (std::size_t l = 0; l < lane_count; ++l) x[l] = low <= x[l] && x[l] <= high ? x[l] : 0;
+HM_WIDEST void limit_lanes(std::int64_t* __restrict x, const spec::NumberFormat& format) {
+  const LaneLimit f(format);
+  if (f.unused > 0)
+    for (std::size_t l = 0; l < lane_count; ++l) x[l] = limited<true, false>(x[l], f);
+  else if (f.zero)
+    for (std::size_t l = 0; l < lane_count; ++l) x[l] = limited<false, true>(x[l], f);
   else
-    for (std::size_t l = 0; l < lane_count; ++l) x[l] = x[l] < low ? low : x[l] > high ? high : x[l];
+    for (std::size_t l = 0; l < lane_count; ++l) x[l] = limited<false, false>(x[l], f);
+}
+
+HM_WIDEST void add_lane_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
+                               std::size_t group, int up, int product_up, const LaneRounding& rounding,
+                               const spec::NumberFormat& format, std::int64_t* x) {
+  const LaneLimit f(format);
+  const LaneRounding r = rounding;
+  const std::int64_t by = std::int64_t{1} << up, product_by = std::int64_t{1} << product_up;
+  if (f.unused > 0)
+    add_groups<true, false>(weights, links, taps, group, by, product_by, r, f, x);
+  else if (f.zero)
+    add_groups<false, true>(weights, links, taps, group, by, product_by, r, f, x);
+  else
+    add_groups<false, false>(weights, links, taps, group, by, product_by, r, f, x);
+}
+
+// A quotient of doubles is at most one off; the exact rest puts it right, and says how to round.
+HM_WIDEST void divide_lanes(std::int64_t* __restrict x, int up, const std::int64_t* divisor,
+                            spec::Rounding mode) {
+  const std::int64_t by = std::int64_t{1} << up;
+  const std::int64_t beyond = mode != spec::Rounding::trn && mode != spec::Rounding::trn_zero;
+  const std::int64_t any = mode == spec::Rounding::trn_zero, tie = mode == spec::Rounding::rnd;
+  const std::int64_t tie_below = tie || mode == spec::Rounding::rnd_zero;
+  const std::int64_t tie_above = tie || mode == spec::Rounding::rnd_inf;
+  const std::int64_t tie_odd = mode == spec::Rounding::rnd_conv;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t n = x[l] * by, none = divisor[l] == 0, d = divisor[l] + none;
+    const std::int64_t near = static_cast<std::int64_t>(static_cast<double>(n) / static_cast<double>(d));
+    const std::int64_t near_rest = n - near * d;
+    const std::int64_t step =
+        static_cast<std::int64_t>(near_rest >= d) - static_cast<std::int64_t>(near_rest < 0);
+    const std::int64_t q = near + step, rest = near_rest - step * d, twice = 2 * rest - d;
+    const std::int64_t negative = n < 0;
+    const std::int64_t more = (beyond & (twice > 0)) | (any & negative & (rest > 0)) |
+                              ((twice == 0) & ((negative ? tie_below : tie_above) | (tie_odd & (q & 1))));
+    x[l] = none ? 0 : q + more;
+  }
 }
 
 HM_WIDEST void clamp_lanes(std::int64_t* __restrict x, std::int64_t bound) {
