@@ -3,6 +3,7 @@
 #include "sim/engine/fast_core.h"
 
 #include <stdexcept>
+#include <thread>
 
 namespace hopmesh::engine {
 
@@ -23,16 +24,26 @@ std::unique_ptr<Core> make_core(const Plan& plan, const Layout& layout, const st
   return make_fast_core(plan, layout, *kernels);
 }
 
-std::size_t threads_for(const spec::Topology&, std::size_t asked) {
-  return std::max<std::size_t>(asked, 1);
+// A sweep of fewer cells is over before a second thread has come to the barrier.
+std::size_t threads_for(const spec::Topology& topology, std::size_t asked) {
+  constexpr std::size_t cells_a_thread = 2500;
+  if (asked > 0) return asked;
+  const std::size_t useful = topology.cells() / cells_a_thread, cores = std::thread::hardware_concurrency();
+  return std::max<std::size_t>(1, std::min(useful, cores));
 }
 
-std::size_t chunk_cells(const spec::Topology&, spec::Schedule, std::size_t followed) {
-  return followed > 1 ? 1 : 0;
+// Sweeps follow each other where the network is larger than a cache can be hoped to hold and links are short:
+// then what all of them need at a time is a small part of it.
+std::size_t sweeps_to_follow(const spec::Topology& topology, std::size_t asked) {
+  constexpr std::size_t large = 60'000, sweeps = 8, share = 16;
+  if (asked > 0) return asked;
+  return topology.cells() >= large && link_reach(topology) * share * sweeps <= topology.cells() ? sweeps : 1;
 }
 
-std::size_t sweeps_to_follow(std::size_t asked) {
-  return std::max<std::size_t>(asked, 1);
+std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t asked) {
+  constexpr std::size_t least = 512; // shorter chunks leave lanes empty
+  const bool follow = schedule == spec::Schedule::coloured && sweeps_to_follow(topology, asked) > 1;
+  return follow ? std::min(least, std::max<std::size_t>(1, topology.cells() / 8)) : 0;
 }
 
 } // namespace hopmesh::engine

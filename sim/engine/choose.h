@@ -15,8 +15,9 @@ std::unique_ptr<Core> make_core(const Plan& plan, const Layout& layout, const st
 
 /// `asked`: 0 for what helps.
 std::size_t threads_for(const spec::Topology& topology, std::size_t asked);
-/// For Layout: 0 where one chunk is best.
-std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t followed);
-std::size_t sweeps_to_follow(std::size_t asked);
+/// How many sweeps follow each other through the mesh. `asked`: 0 for what helps, 1 for plain sweeps.
+std::size_t sweeps_to_follow(const spec::Topology& topology, std::size_t asked);
+/// For Layout: 0 where one chunk is best. Levels of a sequential array run across chunks, so it has one.
+std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t asked);
 
 } // namespace hopmesh::engine

@@ -12,7 +12,7 @@ Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, con
               chunk_cells(topology, array.schedule, options.followed)),
       core_(make_core(plan_, layout_, options.kernel)),
       sweeper_(*core_, layout_, array.schedule, threads_for(topology, options.threads),
-               sweeps_to_follow(options.followed)) {}
+               sweeps_to_follow(topology, options.followed)) {}
 
 std::pair<std::size_t, std::size_t> Engine::place(std::size_t neuron) const {
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);

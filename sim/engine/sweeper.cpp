@@ -19,8 +19,8 @@ Range part(std::size_t first, std::size_t last, std::size_t member, std::size_t 
 Sweeper::Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
                  std::size_t followed)
     : core_(core), layout_(layout),
-      followed_(layout.chunks > 1 && threads == 1 && schedule != spec::Schedule::synchronous ? followed : 1),
-      team_(threads) {}
+      followed_(layout.chunks > 1 && schedule != spec::Schedule::synchronous ? followed : 1), team_(threads) {
+}
 
 void Sweeper::prepare() {
   team_.run([&](std::size_t member) {
@@ -81,17 +81,36 @@ std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limi
   return done;
 }
 
-// Stage k = sweep * groups + group comes to a chunk when stage k - 1 has left the chunk behind it; then a
-// link, which reaches no further, meets every neighbour exactly as plain sweeps would.
-void Sweeper::follow(std::size_t sweeps, std::vector<Swept>& swept) {
-  const std::size_t stages = sweeps * layout_.groups;
-  for (std::size_t wave = 0; wave < layout_.chunks + stages - 1; ++wave)
-    for (std::size_t k = 0; k < stages && k <= wave; ++k) {
-      const std::size_t chunk = wave - k;
-      if (chunk >= layout_.chunks) continue;
-      const std::size_t at = chunk * layout_.groups + k % layout_.groups;
+// Stage k = sweep * groups + group comes to a chunk after stage k - 1 has left the chunk behind it, and
+// before stage k + 1 reaches the chunk in front: then a link, which reaches no further, finds every neighbour
+// as plain sweeps would leave it. Alone, a member takes the stages of a wave one after the other, each one
+// chunk behind the last; a team keeps them two chunks apart, so that a wave's stages do not touch and can be
+// shared out.
+void Sweeper::follow(std::size_t sweeps, std::size_t member, std::vector<Swept>& swept) {
+  const std::size_t stages = sweeps * layout_.groups, apart = team_.size() == 1 ? 1 : 2;
+  const std::size_t waves = layout_.chunks + apart * (stages - 1);
+  for (std::size_t wave = 0; wave < waves; ++wave) {
+    const std::size_t first = wave < layout_.chunks ? 0 : (wave - layout_.chunks) / apart + 1;
+    const std::size_t last = std::min(stages, wave / apart + 1);
+    const Range mine = part(first, last, member, team_.size());
+    for (std::size_t k = mine.first; k < mine.last; ++k) {
+      const std::size_t at = (wave - apart * k) * layout_.groups + k % layout_.groups;
       core_.fire(layout_.first_block[at], layout_.first_block[at + 1], swept[k / layout_.groups]);
     }
+    team_.barrier();
+  }
+}
+
+std::vector<Relaxed> Sweeper::follow(std::size_t sweeps) {
+  std::vector<std::vector<Swept>> own(team_.size(), std::vector<Swept>(sweeps));
+  team_.run([&](std::size_t member) { follow(sweeps, member, own[member]); });
+  std::vector<Relaxed> each(sweeps);
+  for (const auto& swept : own)
+    for (std::size_t k = 0; k < sweeps; ++k) {
+      each[k].largest_change = std::max(each[k].largest_change, swept[k].largest_change());
+      each[k].extremes.merge(swept[k].all_extremes());
+    }
+  return each;
 }
 
 // The sweep that ends the run is known only when all that follow it have begun: then back, and exactly so
@@ -101,18 +120,16 @@ std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t li
   std::uint32_t done = 0;
   while (true) {
     const std::size_t count = std::min<std::size_t>(followed_, limit - done);
-    std::vector<Swept> each(count);
     core_.keep_outputs();
-    follow(count, each);
+    std::vector<Relaxed> each = follow(count);
     std::size_t needed = 1;
-    while (needed < count && each[needed - 1].largest_change() > threshold) ++needed;
+    while (needed < count && each[needed - 1].largest_change > threshold) ++needed;
     if (needed < count) {
       core_.restore_outputs();
-      each.assign(needed, {});
-      follow(needed, each);
+      each = follow(needed);
     }
-    for (std::size_t k = 0; k < needed; ++k) relaxed.extremes.merge(each[k].all_extremes());
-    relaxed.largest_change = each[needed - 1].largest_change();
+    for (const Relaxed& sweep : each) relaxed.extremes.merge(sweep.extremes);
+    relaxed.largest_change = each.back().largest_change;
     done += static_cast<std::uint32_t>(needed);
     if (relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
       return done;

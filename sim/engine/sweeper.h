@@ -15,8 +15,8 @@ struct Relaxed {
 
 class Sweeper {
  public:
-  /// `followed`: sweeps that follow each other; needs a layout of several chunks, one thread, no synchronous
-  /// schedule, and is 1 otherwise.
+  /// `followed`: sweeps that follow each other; needs a layout of several chunks and no synchronous schedule,
+  /// and is 1 otherwise.
   Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
           std::size_t followed);
 
@@ -35,7 +35,8 @@ class Sweeper {
                                 Relaxed& relaxed);
   void fire_sweep(std::size_t member, Swept& swept);
   void fire_group(std::size_t group, std::size_t member, Swept& swept);
-  void follow(std::size_t sweeps, std::vector<Swept>& swept);
+  std::vector<Relaxed> follow(std::size_t sweeps);
+  void follow(std::size_t sweeps, std::size_t member, std::vector<Swept>& swept);
 
   Core& core_;
   const Layout& layout_;

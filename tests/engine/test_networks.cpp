@@ -46,8 +46,8 @@ TEST_P(EngineNetworks, EqualTheBitSerialArray) {
     const ArrayJob job = random_job(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
     const ArrayResult expected = run_slow_array(job);
-    for (const Options& options :
-         {Options{1, "auto", 1}, Options{1, "generic", 1}, Options{2, "auto", 1}, Options{1, "auto", 3}}) {
+    for (const Options& options : {Options{1, "auto", 1}, Options{1, "generic", 1}, Options{2, "auto", 1},
+                                   Options{1, "auto", 3}, Options{2, "auto", 5}}) {
       Engine e(job.array, job.topology, options);
       expect_run(e, job, expected);
     }
