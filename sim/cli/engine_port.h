@@ -13,6 +13,8 @@ class EnginePort : public study::ArrayPort {
              const std::atomic<bool>& stop)
       : device_(array, topology, options, stop) {}
 
+  const engine::Engine& engine() const { return device_.engine(); }
+
   const hm_bus& bus() override { return device_.bus(); }
   std::vector<study::SignalRange> inner_ranges() const override;
 

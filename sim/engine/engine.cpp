@@ -1,6 +1,7 @@
 #include "sim/engine/engine.h"
 
 #include "sim/engine/choose.h"
+#include "sim/engine/fast_core.h"
 #include "sim/engine/rounding.h"
 
 namespace hopmesh::engine {
@@ -13,6 +14,10 @@ Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, con
       core_(make_core(plan_, layout_, options.kernel)),
       sweeper_(*core_, layout_, array.schedule, threads_for(topology, options.threads),
                sweeps_to_follow(topology, options.followed)) {}
+
+std::string Engine::why_no_kernel() const {
+  return engine::why_no_kernel(plan_);
+}
 
 std::pair<std::size_t, std::size_t> Engine::place(std::size_t neuron) const {
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);

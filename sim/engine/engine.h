@@ -55,6 +55,8 @@ class Engine {
   /// Of s and u, over all runs.
   const Extremes& extremes() const { return extremes_; }
   const char* kernel() const { return core_->name(); }
+  /// Why none of the fast kernels can have this array, for people; empty if they can.
+  std::string why_no_kernel() const;
   std::size_t threads() const { return sweeper_.threads(); }
   std::size_t bytes_per_sweep() const { return core_->bytes_per_sweep(); }
 
