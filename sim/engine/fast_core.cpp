@@ -1,7 +1,7 @@
 #include "sim/engine/fast_core.h"
 
 #include "sim/engine/aligned.h"
-#include "sim/engine/lanes.h"
+#include "sim/engine/fast_plan.h"
 
 #include <atomic>
 #include <cstring>
@@ -11,66 +11,6 @@ namespace hopmesh::engine {
 namespace {
 
 constexpr std::size_t L = block_lanes;
-
-int bit_length(std::uint64_t x) {
-  return x == 0 ? 0 : 64 - __builtin_clzll(x);
-}
-
-/// Bits of the largest N that codes of these formats can make.
-int norm_bits(const Plan& plan) {
-  const auto most_weight = std::uint64_t{1} << (plan.formats.weight.width - 1);
-  const auto most_bias = std::uint64_t{1} << (plan.formats.bias.width - 1);
-  return bit_length(((plan.most_taps * most_weight) << plan.weight_up) + (most_bias << plan.bias_up));
-}
-
-Normalise normalise_of(const Plan& plan) {
-  return plan.normaliser == spec::Normaliser::reciprocal ? Normalise::multiply
-         : plan.normaliser == spec::Normaliser::divider  ? Normalise::divide
-                                                         : Normalise::scale;
-}
-
-/// What of s times the reciprocal lies behind the drive's last place.
-int multiplier_places(const Plan& plan) {
-  return norm_bits(plan) + plan.reciprocal_bits - 2 - plan.ratio_up;
-}
-
-std::string why_no_normaliser(const Plan& plan) {
-  const int row = norm_bits(plan), sum = plan.formats.accumulator.width;
-  if (plan.normaliser == spec::Normaliser::reciprocal) {
-    const int above = plan.formats.drive.fraction_bits() - plan.ratio_up; // from N's last place to s's
-    const int product = std::max(above, 0) + row + plan.reciprocal_bits;
-    if (product > 61 || row + plan.reciprocal_bits > 61)
-      return "s times the reciprocal needs more than 62 bits";
-    if (multiplier_places(plan) < 1) return "the reciprocal is coarser than the drive";
-  } else if (plan.normaliser == spec::Normaliser::divider) {
-    if (plan.formats.drive.rounding == spec::Rounding::rnd_conv) return "SC_RND_CONV behind a divider";
-    if (plan.ratio_up < 0 || sum + plan.ratio_up > 50 || plan.formats.drive.fraction_bits() + row > 47)
-      return "a quotient of more than 50 bits";
-  } else {
-    const auto overflow = plan.formats.drive.overflow;
-    if (overflow == spec::Overflow::wrap || overflow == spec::Overflow::sat_zero)
-      return "a drive that does not saturate, behind prescaled rows";
-    if (plan.scaled_down < 0) return "a drive finer than the accumulator";
-  }
-  return "";
-}
-
-KernelRounding kernel_rounding(int places, spec::Rounding mode) {
-  const LaneRounding r = lane_rounding(places, mode);
-  return {r.add, r.add_if_negative, r.add_if_odd, r.places};
-}
-
-// Toward zero and away from it by turning negative numbers round; down at a tie by turning all of them.
-KernelDivision kernel_division(int ratio_up, spec::Rounding mode) {
-  KernelDivision d;
-  d.ratio_up = ratio_up;
-  const bool by_sign =
-      mode == spec::Rounding::trn_zero || mode == spec::Rounding::rnd_inf || mode == spec::Rounding::rnd_zero;
-  d.flip_by_sign = by_sign ? -1 : 0;
-  d.flip_always = mode == spec::Rounding::rnd_min_inf || mode == spec::Rounding::rnd_zero ? -1 : 0;
-  d.half = mode == spec::Rounding::trn || mode == spec::Rounding::trn_zero ? 0 : 0.5;
-  return d;
-}
 
 class FastCore : public Core {
  public:
@@ -367,14 +307,6 @@ void FastCore::begin_run() {
 }
 
 } // namespace
-
-std::string why_no_kernel(const Plan& plan) {
-  if (plan.formats.weight.width > 16) return "weights of more than 16 bits";
-  if (plan.formats.link.width > 16) return "links of more than 16 bits";
-  if (!plan.exact) return "an accumulator that rounds";
-  if (plan.product_up > 0) return "a bias finer than a product";
-  return why_no_normaliser(plan);
-}
 
 const KernelSet* kernel_set(const std::string& name) {
 #ifdef HOPMESH_X86_KERNELS

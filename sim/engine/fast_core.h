@@ -8,9 +8,6 @@
 
 namespace hopmesh::engine {
 
-/// Empty if the kernels can compute the array, else why not, for people.
-std::string why_no_kernel(const Plan& plan);
-
 /// The kernels of this name, or null where the processor cannot run them; "" finds the best.
 const KernelSet* kernel_set(const std::string& name);
 

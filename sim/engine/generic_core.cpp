@@ -2,6 +2,7 @@
 // can hold, 128 where a format asks for them.
 #include "sim/engine/aligned.h"
 #include "sim/engine/core.h"
+#include "sim/engine/fast_plan.h"
 #include "sim/engine/lanes.h"
 #include "sim/engine/rounding.h"
 
@@ -13,10 +14,6 @@ namespace {
 
 constexpr std::size_t L = block_lanes;
 static_assert(L == lane_count);
-
-int bit_length(std::uint64_t x) {
-  return x == 0 ? 0 : 64 - __builtin_clzll(x);
-}
 
 class GenericCore : public Core {
  public:
@@ -124,10 +121,7 @@ class GenericCore : public Core {
 // What of the general rule 64 bits can hold, for every code that the memories can hold.
 void GenericCore::choose_widths() {
   const spec::Formats& f = plan_.formats;
-  const auto most_weight = std::uint64_t{1} << (f.weight.width - 1);
-  const auto most_bias = std::uint64_t{1} << (f.bias.width - 1);
-  norm_bits_ =
-      bit_length(((plan_.most_taps * most_weight) << plan_.weight_up) + (most_bias << plan_.bias_up));
+  norm_bits_ = norm_bits(plan_);
   narrow_sums_ = !plan_.exact && plan_.sum_up <= 52;
   if (narrow_sums_) to_sum_ = lane_rounding(plan_.sum_up, f.accumulator.rounding);
   if (divides_narrowly()) narrow_drives_ = true;
@@ -135,7 +129,7 @@ void GenericCore::choose_widths() {
     narrow_drives_ = true;
     to_drive_ = lane_rounding(plan_.scaled_down, f.drive.rounding);
   }
-  const int places = norm_bits_ + plan_.reciprocal_bits - 2 - plan_.ratio_up;
+  const int places = multiplier_places(plan_);
   const int multiplier =
       norm_bits_ + plan_.reciprocal_bits; // bits of r, moved to the point of the widest N's
   const int above = std::max(f.drive.fraction_bits() - plan_.ratio_up, 0); // from N's last place to that of s

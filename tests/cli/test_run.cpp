@@ -58,13 +58,31 @@ TEST_F(CliRun, LevelReferenceHasNoCodesAndNoCycles) {
   EXPECT_FALSE(read_json(r / "stats.json").contains("simulated_cycles"));
 }
 
-TEST_F(CliRun, LevelsSystemcAndSystemcClockGiveTheSameBits) {
-  const fs::path by_default = results_of("two-nodes", "d"),
+TEST_F(CliRun, LevelsEngineSystemcAndSystemcClockGiveTheSameBits) {
+  const fs::path by_default = results_of("two-nodes --check", "d"),
                  named = results_of("two-nodes --level systemc", "s"),
                  clock = results_of("two-nodes --level systemc-clock", "c");
   expect_same_bits(by_default, named);
   expect_same_bits(named, clock);
+  EXPECT_EQ(read_json(by_default / "manifest.json")["level"], "engine");
   EXPECT_EQ(read_json(clock / "manifest.json")["level"], "systemc-clock");
+}
+
+TEST_F(CliRun, ThreadsChangeNoBit) {
+  const std::string line = "flag-225 --steps 3 ";
+  expect_same_bits(results_of(line + "-j 1", "a"), results_of(line + "-j 3", "b"));
+}
+
+TEST_F(CliRun, AnArrayWithoutAFastKernelSaysSoOnceAndGivesTheSameBits) {
+  const std::string line =
+      " two-nodes --steps 3 --check --set 'formats.weight=fixed<24,1,SC_RND,SC_SAT>' --out ";
+  const Finished f = hopmesh("run" + line + "e");
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  const std::string notice = "no fast kernel for weights of more than 16 bits";
+  ASSERT_THAT(f.err, HasSubstr(notice));
+  EXPECT_EQ(f.err.find(notice), f.err.rfind(notice));
+  good("run --level systemc" + line + "s");
+  expect_same_bits(at("e"), at("s"));
 }
 
 TEST_F(CliRun, TheReferenceIsNearTheArrayButNotTheSame) {
@@ -114,7 +132,8 @@ TEST_F(CliRun, StepsWinOverSet) {
 }
 
 TEST_F(CliRun, NoCheckLeavesTheReferenceOutAndTheBitsAlone) {
-  const fs::path with = results_of("two-nodes", "w"), without = results_of("two-nodes --no-check", "n");
+  const fs::path with = results_of("two-nodes --level systemc", "w"),
+                 without = results_of("two-nodes --level systemc --no-check", "n");
   EXPECT_EQ(content_of(with / "outputs_raw.npy"), content_of(without / "outputs_raw.npy"));
   const Table a = read_table(with / "steps.csv"), b = read_table(without / "steps.csv");
   EXPECT_EQ(a.column.at("hash"), b.column.at("hash"));
@@ -125,6 +144,14 @@ TEST_F(CliRun, NoCheckLeavesTheReferenceOutAndTheBitsAlone) {
     }
   EXPECT_TRUE(read_json(without / "stats.json")["against_reference"].is_null());
   EXPECT_TRUE(read_json(with / "stats.json")["against_reference"].is_object());
+}
+
+TEST_F(CliRun, TheEngineAsksTheReferenceOnlyWithCheck) {
+  const fs::path with = results_of("two-nodes --check", "w"), without = results_of("two-nodes", "n");
+  EXPECT_EQ(read_table(with / "steps.csv").column.at("hash"),
+            read_table(without / "steps.csv").column.at("hash"));
+  EXPECT_TRUE(read_json(with / "stats.json")["against_reference"].is_object());
+  EXPECT_TRUE(read_json(without / "stats.json")["against_reference"].is_null());
 }
 
 TEST_F(CliRun, SchedulesDifferInCycles) {
