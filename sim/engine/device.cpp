@@ -183,6 +183,8 @@ void Device::control(std::uint32_t word) {
   if (!(word & HM_CONTROL_START)) return;
   reg(HM_REG_STATUS) = HM_STATUS_BUSY;
   begun_ = false;
+  threshold_ = reg(HM_REG_THRESHOLD); // what is written there from now on is for the next run
+  max_sweeps_ = reg(HM_REG_MAX_SWEEPS);
 }
 
 void Device::reset() {
@@ -199,7 +201,7 @@ int Device::wait() {
   if (irq()) return HM_OK;
   if (stop_) return HM_ERROR_STOPPED;
   if (busy() && !begun_) {
-    engine_.begin_run(reg(HM_REG_THRESHOLD), reg(HM_REG_MAX_SWEEPS));
+    engine_.begin_run(threshold_, max_sweeps_);
     begun_ = true;
   }
   if (busy() && engine_.advance(stop_)) finish();

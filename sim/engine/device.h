@@ -48,7 +48,8 @@ class Device {
   const std::atomic<bool>& stop_;
   std::array<std::uint32_t, 64> registers_{}; ///< by offset / 4
   std::uint64_t bus_cycles_ = 0;
-  bool begun_ = false; ///< the run at hand has been prepared
+  bool begun_ = false;                           ///< the run at hand has been prepared
+  std::uint32_t threshold_ = 0, max_sweeps_ = 1; ///< of the run at hand, as they were at START
   hm_bus bus_{};
 };
 

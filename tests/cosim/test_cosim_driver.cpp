@@ -1,150 +1,38 @@
 // The whole way of one relaxation: doubles, driver, bus, SystemC device, bus, driver, doubles; against the
 // slow array fed with the slow oracle's codes. Random meshes, arrays and networks; thirty devices an
 // elaboration.
-#include "tests/firmware/driver_fixture.h"
-#include "tests/support/dut.h"
-#include "tests/support/random_network.h"
-
-#include <memory>
+#include "tests/support/driver_case.h"
+#include "tests/support/dut_bus.h"
 
 namespace hopmesh::tests {
 namespace {
 
-/// The firmware's five calls on a device under test.
-class DutBus {
- public:
-  explicit DutBus(Dut& dut) : dut_(dut), bus_{this, &read, &write, &read_burst, &write_burst, &wait} {}
-  DutBus(const DutBus&) = delete;
-  DutBus& operator=(const DutBus&) = delete;
-  const hm_bus* bus() const { return &bus_; }
-
- private:
-  static Dut& dut(void* self) { return static_cast<DutBus*>(self)->dut_; }
-  static int transfer(void* self, tlm::tlm_command command, std::uint32_t address, const void* data,
-                      std::uint32_t words) {
-    return dut(self).transfer(command, address, const_cast<void*>(data), 4 * words) == tlm::TLM_OK_RESPONSE
-               ? HM_OK
-               : HM_ERROR_BUS;
-  }
-  static int read(void* self, std::uint32_t address, std::uint32_t* word) {
-    return transfer(self, tlm::TLM_READ_COMMAND, address, word, 1);
-  }
-  static int write(void* self, std::uint32_t address, std::uint32_t word) {
-    return transfer(self, tlm::TLM_WRITE_COMMAND, address, &word, 1);
-  }
-  static int read_burst(void* self, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return transfer(self, tlm::TLM_READ_COMMAND, address, words, count);
-  }
-  static int write_burst(void* self, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return transfer(self, tlm::TLM_WRITE_COMMAND, address, words, count);
-  }
-  static int wait(void* self) {
-    Dut& d = dut(self);
-    const sc_core::sc_time period = d.device.cells.period();
-    sc_core::sc_start(d.last_delay + period); // what was written last must have arrived
-    for (int patience = 0; patience < 1000000 && !d.irq.read(); ++patience) sc_core::sc_start(period * 64);
-    return d.irq.read() ? HM_OK : HM_ERROR_STOPPED;
-  }
-
-  Dut& dut_;
-  hm_bus bus_;
-};
-
-/// A network in double on a random mesh, and the job that the array should get from it.
-struct Relaxed {
-  explicit Relaxed(std::uint64_t seed_of_case) : seed(seed_of_case), dice(seed) {
-    job.topology = random_topology(dice, 30);
-    job.array = random_array(dice, job.topology.most_taps());
-    std::vector<PlainSpring> springs;
-    for (std::uint32_t c = 0; c < job.topology.cells(); ++c)
-      for (std::size_t k = job.topology.first_link[c]; k < job.topology.first_link[c + 1]; ++k)
-        if (c < job.topology.link_to[k]) springs.push_back({c, job.topology.link_to[k], 1, 1});
-    mesh = std::make_unique<FirmwareMesh>(springs, std::vector<bool>(job.topology.cells(), false),
-                                          static_cast<std::uint32_t>(job.topology.neurons_per_cell));
-    const double scale = std::ldexp(1.0, static_cast<int>(dice.between(-60, 60)));
-    for (std::vector<double>* values : {&mesh->weight, &mesh->bias})
-      for (double& x : *values) x = dice.one_in(4) ? 0 : scale * (2 * dice.unit() - 1);
-    for (double& x : mesh->output) x = dice.one_in(4) ? double(dice.between(-1, 1)) : 2 * dice.unit() - 1;
-    set_codes();
-    dut = std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), job.array, job.topology);
-  }
-
-  void set_codes() {
-    const auto largest = [](const std::vector<double>& values) {
-      double most = 0;
-      for (double x : values) most = std::max(most, std::abs(x));
-      return most;
-    };
-    const double w = largest(mesh->weight), b = largest(mesh->bias);
-    const spec::Formats& f = job.array.formats;
-    const bool prescaled = job.array.normaliser == spec::Normaliser::prescaled;
-    int shift = std::min(w == 0 ? 5000 : room_for(w, f.weight), b == 0 ? 5000 : room_for(b, f.bias));
-    if (prescaled || shift == 5000) shift = 0;
-    const spec::Topology& t = job.topology;
-    for (std::size_t i = 0; i < t.neurons(); ++i) {
-      const std::size_t cell = i / t.neurons_per_cell, row = t.row_offset(cell, i % t.neurons_per_cell);
-      double norm = std::abs(mesh->bias[i]);
-      for (std::size_t k = 0; k < t.taps(cell); ++k) norm += std::abs(mesh->weight[row + k]);
-      const double divisor = prescaled && norm > 0 ? norm : 1;
-      for (std::size_t k = 0; k < t.taps(cell); ++k)
-        job.weight.push_back(code(mesh->weight[row + k] / divisor, shift, f.weight));
-      job.bias.push_back(code(mesh->bias[i] / divisor, shift, f.bias));
-      job.start.push_back(code(mesh->output[i], 0, f.state));
-    }
-    job.threshold = static_cast<std::uint32_t>(dice.below(4));
-    job.max_sweeps = 1 + static_cast<std::uint32_t>(dice.below(8));
-  }
-
-  static std::int32_t code(double value, int shift, const spec::NumberFormat& f) {
-    return static_cast<std::int32_t>(quantise_double(value, shift, f));
-  }
-
-  void relax_and_compare() {
-    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
-    const ArrayResult expected = run_slow_array(job);
-    std::vector<std::uint32_t> buffer(1 + dice.below(200));
-    DutBus bus(*dut);
-    hm_driver driver;
-    hm_relaxation result;
-    ASSERT_EQ(hm_driver_open(&driver, bus.bus(), &mesh->mesh, buffer.data(), std::uint32_t(buffer.size())),
-              HM_OK);
-    const double last_place = std::ldexp(1.0, -job.array.formats.state.fraction_bits());
-    ASSERT_EQ(hm_driver_relax(&driver, &mesh->mesh, &mesh->network, (job.threshold + 0.5) * last_place,
-                              job.max_sweeps, &result),
-              HM_OK);
-    EXPECT_EQ(result.sweeps, expected.sweeps);
-    EXPECT_EQ(result.converged != 0, expected.converged);
-    EXPECT_EQ(result.cycles, expected.cycles);
-    for (std::size_t i = 0; i < mesh->output.size(); ++i)
-      ASSERT_EQ(mesh->output[i], expected.output()[i] * last_place) << "neuron " << i;
-  }
-
-  const std::uint64_t seed;
-  Dice dice;
-  ArrayJob job;
-  std::unique_ptr<FirmwareMesh> mesh;
-  std::unique_ptr<Dut> dut;
+struct Bench {
+  explicit Bench(std::uint64_t seed)
+      : one(seed), dut(("dut" + std::to_string(seed)).c_str(), one.job.array, one.job.topology), bus(dut) {}
+  DriverCase one;
+  Dut dut;
+  DutBus bus;
 };
 
 class CosimDriverBatch : public testing::TestWithParam<int> {};
 
 TEST_P(CosimDriverBatch, FromDoublesToDoubles) {
-  std::vector<std::unique_ptr<Relaxed>> cases;
-  for (int k = 0; k < 30; ++k) cases.push_back(std::make_unique<Relaxed>(9000 + 30 * GetParam() + k));
-  for (const auto& one : cases) one->relax_and_compare();
+  std::vector<std::unique_ptr<Bench>> benches;
+  for (int k = 0; k < 30; ++k) benches.push_back(std::make_unique<Bench>(9000 + 30 * GetParam() + k));
+  for (const auto& bench : benches) bench->one.relax_and_compare(*bench->bus.bus());
 }
 
 TEST(CosimDriver, ARunThatNobodyWaitedForDoesNotDisturbTheNext) {
   // A platform that stopped waiting leaves the array running; it finishes by itself and its interrupt stays
   // up.
-  Relaxed one(9500);
+  Bench bench(9500);
   std::uint32_t word;
   hm_driver driver;
-  DutBus bus(*one.dut);
-  ASSERT_EQ(hm_driver_open(&driver, bus.bus(), &one.mesh->mesh, &word, 1), HM_OK);
-  one.dut->start(0, 3);
-  one.dut->run_until_done();
-  one.relax_and_compare();
+  ASSERT_EQ(hm_driver_open(&driver, bench.bus.bus(), &bench.one.mesh->mesh, &word, 1), HM_OK);
+  bench.dut.start(0, 3);
+  bench.dut.run_until_done();
+  bench.one.relax_and_compare(*bench.bus.bus());
 }
 
 INSTANTIATE_TEST_SUITE_P(Batch, CosimDriverBatch, testing::Range(0, 10));

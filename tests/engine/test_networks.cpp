@@ -1,9 +1,9 @@
-// Random networks on random arrays: the engine against the bit-serial array, raw code by raw code, on every
-// core, with several threads and with sweeps that follow each other.
-#include "sim/engine/engine.h"
-#include "tests/support/random_network.h"
+// Random networks: the engine against the bit-serial array, raw code by raw code, with sweeps, the
+// convergence bit, the largest change and the cycles. Any array on the cores that take it, and arrays made
+// for the kernels on every kernel; each on several threads and with sweeps that follow each other.
+#include "tests/engine/engine_bench.h"
 
-#include <gtest/gtest.h>
+#include <set>
 
 namespace hopmesh::tests {
 namespace {
@@ -11,50 +11,138 @@ namespace {
 using engine::Engine;
 using engine::Options;
 
-const std::uint32_t* words(const std::vector<std::int32_t>& codes) {
-  return reinterpret_cast<const std::uint32_t*>(codes.data());
+void run_all(const ArrayJob& job, std::uint64_t seed, const std::vector<Options>& ways) {
+  SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
+  const ArrayResult expected = run_slow_array(job);
+  for (const Options& options : ways) {
+    SCOPED_TRACE(text(options));
+    Engine e(job.array, job.topology, options);
+    expect_run(e, job, expected);
+    expect_run(e, job, expected); // once more, with what the first run left behind
+  }
 }
 
-void load(Engine& e, const ArrayJob& job) {
-  e.write_weights(0, words(job.weight), job.weight.size());
-  e.write_biases(0, words(job.bias), job.bias.size());
-  e.write_outputs(0, words(job.start), job.start.size());
-}
-
-std::vector<std::int32_t> outputs(const Engine& e) {
-  std::vector<std::int32_t> codes(e.topology().neurons());
-  e.read_outputs(0, reinterpret_cast<std::uint32_t*>(codes.data()), codes.size());
-  return codes;
-}
-
-void expect_run(Engine& e, const ArrayJob& job, const ArrayResult& expected) {
-  load(e, job);
-  const engine::RunResult r = e.run(job.threshold, job.max_sweeps);
-  EXPECT_EQ(outputs(e), expected.output());
-  EXPECT_EQ(r.sweeps, expected.sweeps);
-  EXPECT_EQ(r.converged, expected.converged);
-  EXPECT_EQ(r.largest_change, expected.largest_change);
-  EXPECT_EQ(r.cycles, expected.cycles);
+/// Every kernel plainly, one of them on some threads, one with sweeps that follow each other.
+std::vector<Options> ways_for(Dice& dice) {
+  const auto& kernels = kernels_here();
+  std::vector<Options> ways;
+  for (const std::string& kernel : kernels) ways.push_back({1, kernel, 1});
+  ways.push_back({static_cast<std::size_t>(dice.between(2, 3)), kernels[dice.below(kernels.size())], 1});
+  ways.push_back({1, kernels[dice.below(kernels.size())], static_cast<std::size_t>(dice.between(2, 7))});
+  return ways;
 }
 
 class EngineNetworks : public testing::TestWithParam<int> {};
 
-TEST_P(EngineNetworks, EqualTheBitSerialArray) {
-  constexpr int batch = 250;
+TEST_P(EngineNetworks, OfAnyArray) {
+  constexpr int batch = 500;
   for (int k = 0; k < batch && !HasFailure(); ++k) {
     const std::uint64_t seed = 1 + static_cast<std::uint64_t>(GetParam()) * batch + k;
-    const ArrayJob job = random_job(seed);
-    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
-    const ArrayResult expected = run_slow_array(job);
-    for (const Options& options : {Options{1, "auto", 1}, Options{1, "generic", 1}, Options{2, "auto", 1},
-                                   Options{1, "auto", 3}, Options{2, "auto", 5}}) {
-      Engine e(job.array, job.topology, options);
-      expect_run(e, job, expected);
-    }
+    run_all(random_job(seed), seed,
+            {{1, "auto", 1}, {1, "generic", 1}, {2, "auto", 1}, {1, "auto", 3}, {1, "generic", 2}});
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Batch, EngineNetworks, testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Batch, EngineNetworks, testing::Range(0, 4));
+
+/// What random arrays came by, so that "every mode" is not only hoped for.
+struct Coverage {
+  std::set<std::string> seen;
+  void note(const ArrayJob& job) {
+    const spec::ArraySpec& a = job.array;
+    const std::string normaliser(name_of(a.normaliser)),
+        per_cell = std::to_string(job.topology.neurons_per_cell);
+    const auto note_modes = [&](const std::string& what, const spec::NumberFormat& f) {
+      seen.insert(normaliser + " " + what + " " + std::string(name_of(f.rounding)));
+      seen.insert(normaliser + " " + what + " " + std::string(name_of(f.overflow)));
+    };
+    note_modes("drive", a.formats.drive);
+    note_modes("state", a.formats.state);
+    note_modes("link", a.formats.link);
+    seen.insert(normaliser + " " + std::string(name_of(a.schedule)) + " " + per_cell);
+  }
+  static std::size_t most(spec::Normaliser n) {
+    const std::size_t all = 3 * (7 + 4) + 3 * 2;
+    // Behind a divider the drive does not round to even; behind prescaled rows it saturates.
+    return n == spec::Normaliser::divider ? all - 1 : n == spec::Normaliser::prescaled ? all - 2 : all;
+  }
+};
+
+class KernelNetworks : public testing::TestWithParam<int> {};
+
+TEST_P(KernelNetworks, EqualTheBitSerialArrayInEveryMode) {
+  const auto normaliser = static_cast<spec::Normaliser>(GetParam());
+  Coverage coverage;
+  for (std::uint64_t k = 0; k < 700 && !HasFailure(); ++k) {
+    const std::uint64_t seed = 100000 + 10000 * static_cast<std::uint64_t>(GetParam()) + k;
+    Dice dice(seed);
+    const spec::Topology topology = random_topology(dice, 70);
+    const ArrayJob job = random_codes(dice, random_fast_array(dice, topology, normaliser), topology);
+    coverage.note(job);
+    run_all(job, seed, ways_for(dice));
+  }
+  EXPECT_EQ(coverage.seen.size(), Coverage::most(normaliser));
+}
+
+INSTANTIATE_TEST_SUITE_P(Normaliser, KernelNetworks, testing::Range(0, 3));
+
+/// Two cells with forty neighbours each, a bridge between them, empty rows, and cells that nobody knows.
+spec::Topology stars(int per_cell) {
+  Edges edges{{0, 50}};
+  for (std::uint32_t k = 1; k <= 40; ++k) edges.insert(edges.end(), {{0, k}, {50, 50 + k}});
+  return topology_of(97, per_cell, edges);
+}
+
+TEST(KernelStars, AndEmptyRowsAndLonelyCells) {
+  for (std::uint64_t seed = 200000; seed < 200060; ++seed) {
+    Dice dice(seed);
+    const spec::Topology topology = stars(seed % 2 ? 2 : 3);
+    const auto normaliser = static_cast<spec::Normaliser>(seed / 2 % 3);
+    ArrayJob job = random_codes(dice, random_fast_array(dice, topology, normaliser), topology);
+    for (std::size_t c = 0; c < topology.cells(); c += 3) { // no input at all: V must stay
+      const std::size_t row = topology.row_offset(c, 1);
+      std::fill_n(job.weight.begin() + static_cast<std::ptrdiff_t>(row), topology.taps(c), 0);
+      job.bias[c * topology.neurons_per_cell + 1] = 0;
+    }
+    run_all(job, seed, ways_for(dice));
+  }
+}
+
+/// A graph without any order: neighbours come from everywhere.
+spec::Topology tangle(Dice& dice, std::size_t cells, int per_cell) {
+  Edges edges;
+  for (std::size_t k = 0; k < 3 * cells; ++k) {
+    const auto a = static_cast<std::uint32_t>(dice.below(cells)),
+               b = static_cast<std::uint32_t>(dice.below(cells));
+    if (a != b) edges.push_back({a, b});
+  }
+  return topology_of(cells, per_cell, edges);
+}
+
+/// Meshes larger than a few blocks, so that every way of finding neighbours is walked.
+void run_large(std::uint64_t seed, spec::Topology topology, Dice& dice) {
+  const auto normaliser = static_cast<spec::Normaliser>(seed % 3);
+  ArrayJob job = random_codes(dice, random_fast_array(dice, topology, normaliser), topology);
+  job.max_sweeps = 1 + static_cast<std::uint32_t>(seed % 4);
+  run_all(job, seed, ways_for(dice));
+}
+
+TEST(KernelMeshes, TanglesOfUpToThreeThousandCells) {
+  for (std::uint64_t seed = 300000; seed < 300024 && !testing::Test::HasFailure(); ++seed) {
+    Dice dice(seed);
+    const std::size_t cells = seed % 8 == 0 ? 3000 : static_cast<std::size_t>(dice.between(300, 1000));
+    run_large(seed, tangle(dice, cells, seed % 5 == 0 ? 2 : 3), dice);
+  }
+}
+
+TEST(KernelMeshes, GridsOfTwentyToFortyRows) {
+  for (std::uint64_t seed = 400000; seed < 400036 && !testing::Test::HasFailure(); ++seed) {
+    Dice dice(seed);
+    const auto rows = static_cast<std::size_t>(dice.between(20, 40)),
+               columns = static_cast<std::size_t>(dice.between(5, 45));
+    run_large(seed, grid_topology(rows, columns, dice.one_in(2), seed % 5 == 0 ? 2 : 3), dice);
+  }
+}
 
 } // namespace
 } // namespace hopmesh::tests

@@ -1,0 +1,172 @@
+// Runs behind the engine's bus: the firmware's driver from doubles to doubles, a wait that is stopped and
+// gone on with, and what a run takes over at START.
+#include "sim/engine/device.h"
+#include "tests/engine/engine_bench.h"
+#include "tests/support/driver_case.h"
+
+#include <thread>
+
+namespace hopmesh::tests {
+namespace {
+
+using engine::Device;
+
+/// A device with a host's view of it.
+struct Host {
+  Host(const spec::ArraySpec& array, const spec::Topology& topology, const engine::Options& options = {})
+      : device(array, topology, options, stop) {}
+  std::uint32_t read(std::uint32_t address) {
+    std::uint32_t word = 0;
+    EXPECT_EQ(bus.read(bus.context, address, &word), HM_OK);
+    return word;
+  }
+  Codes read(std::uint32_t address, std::size_t count) {
+    Codes codes(count);
+    EXPECT_EQ(bus.read_burst(bus.context, address, reinterpret_cast<std::uint32_t*>(codes.data()),
+                             static_cast<std::uint32_t>(count)),
+              HM_OK);
+    return codes;
+  }
+  void write(std::uint32_t address, std::uint32_t word) {
+    EXPECT_EQ(bus.write(bus.context, address, word), HM_OK);
+  }
+  void write(std::uint32_t address, const Codes& codes) {
+    EXPECT_EQ(bus.write_burst(bus.context, address, reinterpret_cast<const std::uint32_t*>(codes.data()),
+                              static_cast<std::uint32_t>(codes.size())),
+              HM_OK);
+  }
+  int wait() { return bus.wait(bus.context); }
+
+  void load_and_start(const ArrayJob& job) {
+    write(HM_WINDOW_WEIGHT, job.weight);
+    write(HM_WINDOW_BIAS, job.bias);
+    write(HM_WINDOW_OUTPUT, job.start);
+    write(HM_REG_THRESHOLD, job.threshold);
+    write(HM_REG_MAX_SWEEPS, job.max_sweeps);
+    write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+    write(HM_REG_CONTROL, HM_CONTROL_START);
+  }
+  void expect(const ArrayResult& expected) {
+    EXPECT_EQ(read(HM_WINDOW_OUTPUT, expected.output().size()), expected.output());
+    EXPECT_EQ(read(HM_REG_SWEEPS), expected.sweeps);
+    EXPECT_EQ(read(HM_REG_STATUS),
+              static_cast<std::uint32_t>(HM_STATUS_DONE | (expected.converged ? HM_STATUS_CONVERGED : 0)));
+    EXPECT_EQ(read(HM_REG_LARGEST_CHANGE), expected.largest_change);
+    EXPECT_EQ(read(HM_REG_CYCLES_LO), static_cast<std::uint32_t>(expected.cycles));
+    EXPECT_EQ(read(HM_REG_CYCLES_HI), static_cast<std::uint32_t>(expected.cycles >> 32));
+  }
+
+  std::atomic<bool> stop{false};
+  Device device;
+  const hm_bus& bus = device.bus();
+};
+
+class EngineDriverBatch : public testing::TestWithParam<int> {};
+
+TEST_P(EngineDriverBatch, FromDoublesToDoubles) {
+  for (int k = 0; k < 75; ++k) { // the cases of tests/cosim/test_cosim_driver.cpp
+    DriverCase one(static_cast<std::uint64_t>(9000 + 75 * GetParam() + k));
+    Host host(one.job.array, one.job.topology);
+    one.relax_and_compare(host.bus);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Batch, EngineDriverBatch, testing::Range(0, 4));
+
+TEST(EngineDriver, ARunThatNobodyWaitedForDoesNotDisturbTheNext) {
+  DriverCase one(9500);
+  Host host(one.job.array, one.job.topology);
+  std::uint32_t word;
+  hm_driver driver;
+  ASSERT_EQ(hm_driver_open(&driver, &host.bus, &one.mesh->mesh, &word, 1), HM_OK);
+  host.write(HM_REG_CONTROL, HM_CONTROL_START);
+  EXPECT_EQ(host.wait(), HM_OK);
+  one.relax_and_compare(host.bus);
+}
+
+/// A device whose run nobody waited for is running, for ever: the host has to wait.
+TEST(EngineDriver, IsToldThatTheArrayIsBusyAsLongAsNobodyWaits) {
+  DriverCase one(9501);
+  Host host(one.job.array, one.job.topology);
+  std::vector<std::uint32_t> buffer(64);
+  hm_driver driver;
+  hm_relaxation result;
+  ASSERT_EQ(hm_driver_open(&driver, &host.bus, &one.mesh->mesh, buffer.data(), 64), HM_OK);
+  host.write(HM_REG_CONTROL, HM_CONTROL_START);
+  EXPECT_EQ(hm_driver_relax(&driver, &one.mesh->mesh, &one.mesh->network, 0.1, 3, &result), HM_ERROR_BUSY);
+  EXPECT_EQ(host.wait(), HM_OK);
+  one.relax_and_compare(host.bus);
+}
+
+ArrayJob long_job() {
+  Dice dice(1100000);
+  ArrayJob job = random_codes(dice, spec::ArraySpec{}, grid_topology(12, 12, true));
+  job.threshold = 0;
+  job.max_sweeps = 60;
+  return job;
+}
+
+TEST(EngineWait, StoppedBySomeoneElseGoesOnWithTheNext) {
+  const ArrayJob job = long_job();
+  const ArrayResult expected = run_slow_array(job);
+  Host host(job.array, job.topology);
+  host.load_and_start(job);
+  std::atomic<bool> over{false};
+  std::thread nuisance([&] {
+    while (!over) {
+      host.stop = !host.stop;
+      std::this_thread::yield();
+    }
+  });
+  int answer;
+  while ((answer = host.wait()) == HM_ERROR_STOPPED) {
+  }
+  over = true;
+  nuisance.join();
+  EXPECT_EQ(answer, HM_OK);
+  host.expect(expected);
+}
+
+TEST(EngineWait, WithAStopThatStandsComesBackAtOnceAndDoesNothing) {
+  const ArrayJob job = long_job();
+  Host host(job.array, job.topology);
+  host.load_and_start(job);
+  host.stop = true;
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(host.wait(), HM_ERROR_STOPPED);
+  EXPECT_EQ(host.read(HM_REG_STATUS), static_cast<std::uint32_t>(HM_STATUS_BUSY));
+  EXPECT_EQ(host.read(HM_WINDOW_OUTPUT, job.start.size()),
+            [&] { // as loaded
+              ArrayJob loaded = job;
+              const auto one = static_cast<std::int32_t>(job.array.formats.state.one_raw());
+              for (auto& v : loaded.start) v = std::min(std::max(v, -one), one);
+              return loaded.start;
+            }());
+  host.stop = false;
+  EXPECT_EQ(host.wait(), HM_OK);
+  host.expect(run_slow_array(job));
+}
+
+TEST(EngineWait, ForALineThatNothingWillRaiseComesBack) {
+  Host host(spec::ArraySpec{}, ring_topology(3));
+  EXPECT_EQ(host.wait(), HM_ERROR_STOPPED); // no run
+  host.write(HM_REG_CONTROL, HM_CONTROL_START);
+  EXPECT_EQ(host.wait(), HM_ERROR_STOPPED); // a run, but nobody asked for its interrupt
+  EXPECT_EQ(host.read(HM_REG_IRQ_STATUS), static_cast<std::uint32_t>(HM_IRQ_DONE));
+  host.write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+  EXPECT_EQ(host.wait(), HM_OK);
+}
+
+/// THRESHOLD and MAX_SWEEPS may be written while the array runs; they are for the next run.
+TEST(EngineStart, TakesItsLimitsOver) {
+  const ArrayJob job = long_job();
+  Host host(job.array, job.topology);
+  host.load_and_start(job);
+  host.write(HM_REG_THRESHOLD, 1u << 20);
+  host.write(HM_REG_MAX_SWEEPS, 1);
+  EXPECT_EQ(host.wait(), HM_OK);
+  host.expect(run_slow_array(job));
+  EXPECT_EQ(host.read(HM_REG_MAX_SWEEPS), 1u);
+}
+
+} // namespace
+} // namespace hopmesh::tests
