@@ -3,6 +3,7 @@
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
 #include "sim/engine/fast_core.h"
+#include "sim/engine/fast_plan.h"
 #include "tests/support/slow_fixed.h"
 
 #include <cstdio>
