@@ -2,10 +2,8 @@
 // with sc_fixed. All in one process and in random turns, so that ratios are fair on a noisy machine; all must
 // give the same codes in the same cycles.
 #include "rtl_model/spec/array_rules.h"
-#include "tests/bench/flag_steps.h"
+#include "tests/bench/flag_network.h"
 #include "tests/bench/sc_fixed_array.h"
-
-#include <benchmark/benchmark.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -14,18 +12,6 @@
 
 namespace hopmesh::bench {
 namespace {
-
-constexpr std::uint32_t sweeps_a_run = 20;
-constexpr int warm_up_steps = 20; ///< after these the flag moves and its networks are no longer special
-
-struct Outcome {
-  std::vector<std::int32_t> outputs;
-  std::uint64_t sweeps = 0, cycles = 0, largest_change = 0;
-  bool operator==(const Outcome& o) const {
-    return outputs == o.outputs && sweeps == o.sweeps && cycles == o.cycles &&
-           largest_change == o.largest_change;
-  }
-};
 
 /// Everything SystemC, made before simulation begins.
 struct Arrays {
@@ -39,60 +25,25 @@ struct Arrays {
   tests::Dut production;
   ScFixedArray sc_fixed;
   FlagSteps steps;
-  std::vector<std::int32_t> weights, biases, start; ///< one network of the moving flag
-  Outcome expected;
+  FlagNetwork network;
 
-  std::size_t neurons() const { return mesh.topology().neurons(); }
-
-  /// The network of the last warm-up step, read back from the array that the firmware loaded.
   void find_network() {
-    steps.begin();
-    for (int k = 0; k < warm_up_steps; ++k) steps.advance();
-    weights = production.read(HM_WINDOW_WEIGHT, mesh.topology().weight_words());
-    biases = production.read(HM_WINDOW_BIAS, neurons());
-    start = steps.start_raw();
-    load_production();
-    run_production();
-    expected = outcome_of_production();
-    sc_fixed.load(weights, biases, start);
+    network.find(production, mesh.topology(), steps);
+    load_sc_fixed();
   }
-  void load_production() {
-    production.write(HM_WINDOW_WEIGHT, weights);
-    production.write(HM_WINDOW_BIAS, biases);
-    production.write(HM_WINDOW_OUTPUT, start);
-  }
-  void run_production() {
-    production.start(0, sweeps_a_run);
-    production.run_until_done();
-  }
-  Outcome outcome_of_production() {
-    return {production.read(HM_WINDOW_OUTPUT, neurons()), production.read(HM_REG_SWEEPS),
-            production.read(HM_REG_CYCLES_LO), production.read(HM_REG_LARGEST_CHANGE)};
-  }
-  Outcome outcome_of_sc_fixed() const {
-    return {sc_fixed.outputs_raw(), sc_fixed.sweeps(), sc_fixed.cycles(), sc_fixed.largest_change_raw()};
-  }
+  void load_sc_fixed() { sc_fixed.load(network.weights, network.biases, network.start); }
 };
 
-void report(benchmark::State& state, const Arrays& a, const Outcome& outcome) {
-  if (!(outcome == a.expected)) state.SkipWithError("other codes, sweeps or cycles than woken by phase");
-  using benchmark::Counter;
-  const auto runs = static_cast<double>(state.iterations());
-  state.counters["updates/s"] =
-      Counter(runs * static_cast<double>(outcome.sweeps * a.neurons()), Counter::kIsRate);
-  state.counters["cycles/s"] = Counter(runs * static_cast<double>(outcome.cycles), Counter::kIsRate);
-}
-
 void run_production(benchmark::State& state, Arrays& a, systemc::Waking waking) {
-  a.load_production();
+  a.network.load(a.production);
   a.production.device.wake(waking);
   for (auto _ : state) {
     state.PauseTiming();
-    a.production.write(HM_WINDOW_OUTPUT, a.start);
+    a.production.write(HM_WINDOW_OUTPUT, a.network.start);
     state.ResumeTiming();
-    a.run_production();
+    FlagNetwork::run(a.production);
   }
-  report(state, a, a.outcome_of_production());
+  report(state, a.network, a.network.outcome_of_production(a.production));
 }
 
 void by_phase(benchmark::State& state, Arrays& a) {
@@ -119,11 +70,11 @@ void by_clock_with_wave(benchmark::State& state, Arrays& a) {
 void sc_fixed(benchmark::State& state, Arrays& a) {
   for (auto _ : state) {
     state.PauseTiming();
-    a.sc_fixed.load(a.weights, a.biases, a.start);
+    a.load_sc_fixed();
     state.ResumeTiming();
     a.sc_fixed.run(0, sweeps_a_run);
   }
-  report(state, a, a.outcome_of_sc_fixed());
+  report(state, a.network, outcome_of(a.sc_fixed));
 }
 
 /// All steps of the scene: who takes how much of the processor.
@@ -165,15 +116,7 @@ int sc_main(int argc, char** argv) {
   hopmesh::tests::Dut::elaborate();
   arrays.find_network();
   hopmesh::bench::register_all(arrays);
-  std::vector<char*> words(argv, argv + argc);
-  std::string turns = "--benchmark_enable_random_interleaving=true";
-  words.insert(words.begin() + 1, turns.data());
-  int count = static_cast<int>(words.size());
-  benchmark::Initialize(&count, words.data());
-  if (benchmark::ReportUnrecognizedArguments(count, words.data())) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  return hopmesh::bench::run_benchmarks(argc, argv);
 }
 
 int main(int argc, char** argv) {

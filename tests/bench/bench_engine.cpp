@@ -1,5 +1,9 @@
-// How fast the engine relaxes flags of any size, and how near that is to what this processor can do at most.
+// How fast the engine relaxes flags of any size, and how near that is to what this processor can do at most:
+// streams and multiply-adds of the same kind, measured in the same run.
+#include "sim/reference/reference.h"
+#include "sim/study/reference_check.h"
 #include "tests/bench/grid_network.h"
+#include "tests/bench/roofs.h"
 
 #include <benchmark/benchmark.h>
 
@@ -8,59 +12,141 @@
 namespace hopmesh::bench {
 namespace {
 
-const GridNetwork& flag(std::size_t rows, const std::string& array) {
+using benchmark::Counter;
+using engine::Engine;
+using engine::Options;
+
+const GridNetwork& flag(std::size_t rows, const std::string& array,
+                        const std::vector<std::string>& more = {}) {
   static std::map<std::pair<std::size_t, std::string>, GridNetwork> known;
-  auto [at, is_new] = known.try_emplace({rows, array});
-  if (is_new) at->second = grid_network(rows, rows, rows <= 100 ? 20 : 2, array, {"relax.max_sweeps=20"});
+  std::string name = array;
+  for (const std::string& key : more) name += " " + key;
+  auto [at, is_new] = known.try_emplace({rows, name});
+  std::vector<std::string> overrides = more;
+  overrides.push_back("relax.max_sweeps=20");
+  if (is_new) at->second = grid_network(rows, rows, rows <= 100 ? 20 : 2, array, overrides);
   return at->second;
 }
 
-void sweeps(benchmark::State& state, std::size_t rows, const std::string& array,
-            const engine::Options& options) {
-  const GridNetwork& network = flag(rows, array);
-  engine::Engine e(network.array, network.topology, options);
+void relax(benchmark::State& state, const GridNetwork& network, const Options& options) {
+  Engine e(network.array, network.topology, options);
   network.load(e);
   const auto count =
       static_cast<std::uint32_t>(std::max<std::size_t>(16, 4000000 / network.neurons() / 16 * 16));
   e.run(0, 1);
   std::uint64_t done = 0;
   for (auto _ : state) done += e.run(0, count).sweeps;
-  const auto updates = static_cast<double>(done) * static_cast<double>(network.neurons());
-  state.counters["updates/s"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
+  const double updates = static_cast<double>(done) * static_cast<double>(network.neurons());
+  state.counters["updates/s"] = Counter(updates, Counter::kIsRate);
   state.counters["bytes/update"] =
       static_cast<double>(e.bytes_per_sweep()) / static_cast<double>(network.neurons());
   state.SetLabel(e.kernel());
+}
+
+/// The same network of doubles, relaxed by the reference in the same order.
+void relax_reference(benchmark::State& state) {
+  const scene::Inputs inputs = scene::read_inputs("flag-400", "", {});
+  const study::BuiltMesh mesh(inputs.scene);
+  const auto motion = reference::motion_of(inputs.scene);
+  const auto order = study::order_for(mesh, inputs.array.schedule);
+  auto at = reference::initial_state(mesh.mesh());
+  for (int k = 0; k < 20; ++k) reference::advance(mesh.mesh(), motion, order, at);
+  const auto C = reference::predict(mesh.mesh(), motion, at);
+  const auto V0 = reference::expansion_point(mesh.mesh(), at);
+  const auto network = reference::network(mesh.mesh(), motion, C, V0);
+  std::uint64_t done = 0;
+  for (auto _ : state) done += reference::relax(network, order, V0, 0, 280).sweeps;
+  state.counters["updates/s"] =
+      Counter(static_cast<double>(done * mesh.topology().neurons()), Counter::kIsRate);
+}
+
+void read_roof(benchmark::State& state, std::size_t bytes) {
+  Stream stream(bytes);
+  for (auto _ : state) benchmark::DoNotOptimize(stream.read());
+  state.counters["bytes/s"] = Counter(
+      static_cast<double>(state.iterations()) * static_cast<double>(stream.bytes()), Counter::kIsRate);
+}
+
+void multiply_roof(benchmark::State& state) {
+  double products = 0;
+  for (auto _ : state) products += multiply_add_peak();
+  state.counters["products/s"] = Counter(products, Counter::kIsRate);
+}
+
+template <typename Body> void add(const std::string& name, Body body, bool wall = false) {
+  auto* b = benchmark::RegisterBenchmark(name.c_str(), body)->Repetitions(5)->Unit(benchmark::kMillisecond);
+  b->MinTime(0.1);
+  if (wall) b->UseRealTime();
+}
+
+// The roofs are of the widest instructions; a processor without them is measured without a roof.
+void register_roofs() {
+  if (!__builtin_cpu_supports("avx512vnni") || !__builtin_cpu_supports("avx512bw")) return;
+  for (std::size_t kib : {32, 96, 384, 2560, 8192, 262144})
+    add("roof read KiB/" + std::to_string(kib), [=](benchmark::State& s) { read_roof(s, kib << 10); });
+  add("roof multiply-add/int16", multiply_roof);
+}
+
+void register_all() {
+  register_roofs();
+  for (std::size_t rows : {15, 20, 40, 100, 316, 1000})
+    add("plain/" + std::to_string(rows * rows), [=](benchmark::State& s) {
+      relax(s, flag(rows, ""), {1, "auto", 1});
+    });
+  for (const char* kernel : {"generic", "portable", "avx2"})
+    add(std::string("kernel/") + kernel, [=](benchmark::State& s) {
+      relax(s, flag(20, ""), {1, kernel, 1});
+    });
+  for (const char* array : {"descent", "prescaled", "byte"})
+    add(std::string("array/") + array, [=](benchmark::State& s) {
+      relax(s, flag(20, array), {1, "auto", 1});
+    });
+  add("array/32 bits", [](benchmark::State& s) {
+    relax(s,
+          flag(20, "",
+               {"formats.weight=fixed<24,1,SC_RND,SC_SAT>", "formats.bias=fixed<32,9,SC_RND,SC_SAT>",
+                "formats.drive=fixed<30,2,SC_RND,SC_SAT>", "formats.state=fixed<32,2,SC_RND,SC_SAT>",
+                "formats.link=fixed<26,2,SC_RND,SC_SAT>", "array.reciprocal_bits=32"}),
+          {1, "auto", 1});
+  });
+  add("array/rounding accumulator", [](benchmark::State& s) {
+    relax(s, flag(20, "", {"formats.accumulator=fixed<32,12,SC_RND_CONV,SC_WRAP>"}), {1, "auto", 1});
+  });
+  add("array/sequential", [](benchmark::State& s) {
+    relax(s, flag(20, "", {"array.schedule=sequential"}), {1, "auto", 1});
+  });
+  for (std::size_t threads : {1, 2})
+    for (std::size_t rows : {20, 100})
+      add(
+          "threads " + std::to_string(rows * rows) + "/" + std::to_string(threads),
+          [=](benchmark::State& s) {
+            relax(s, flag(rows, ""), {threads, "auto", 1});
+          },
+          true);
+  add(
+      "threads 400/as chosen",
+      [](benchmark::State& s) {
+        relax(s, flag(20, ""), {0, "auto", 1});
+      },
+      true);
+  for (std::size_t sweeps : {2, 4, 8, 16})
+    add("followed 1000000/" + std::to_string(sweeps), [=](benchmark::State& s) {
+      relax(s, flag(1000, ""), {1, "auto", sweeps});
+    });
+  add("reference/double, Eigen", relax_reference);
 }
 
 } // namespace
 } // namespace hopmesh::bench
 
 int main(int argc, char** argv) {
-  using namespace hopmesh::bench;
-  for (std::size_t rows : {15, 20, 40, 100, 316, 1000})
-    benchmark::RegisterBenchmark(("engine/" + std::to_string(rows * rows)).c_str(), [=](benchmark::State& s) {
-      sweeps(s, rows, "", {1, "auto", 1});
-    });
-  for (const char* kernel : {"generic", "portable", "avx2"})
-    benchmark::RegisterBenchmark((std::string("kernel 400/") + kernel).c_str(), [=](benchmark::State& s) {
-      sweeps(s, 20, "", {1, kernel, 1});
-    });
-  for (const char* array : {"descent", "prescaled", "byte"})
-    benchmark::RegisterBenchmark((std::string("array 400/") + array).c_str(), [=](benchmark::State& s) {
-      sweeps(s, 20, array, {1, "auto", 1});
-    });
-  for (int t : {1, 2}) {
-    benchmark::RegisterBenchmark(("threads 400/" + std::to_string(t)).c_str(), [=](benchmark::State& s) {
-      sweeps(s, 20, "", {std::size_t(t), "auto", 1});
-    })->UseRealTime();
-    benchmark::RegisterBenchmark(("threads 10000/" + std::to_string(t)).c_str(), [=](benchmark::State& s) {
-      sweeps(s, 100, "", {std::size_t(t), "auto", 1});
-    })->UseRealTime();
-  }
-  for (int f : {2, 4, 8, 16})
-    benchmark::RegisterBenchmark(("followed 1000000/" + std::to_string(f)).c_str(), [=](benchmark::State& s) {
-      sweeps(s, 1000, "", {1, "auto", std::size_t(f)});
-    });
-  benchmark::Initialize(&argc, argv);
+  hopmesh::bench::register_all();
+  std::vector<char*> words(argv, argv + argc);
+  std::string turns = "--benchmark_enable_random_interleaving=true";
+  words.insert(words.begin() + 1, turns.data());
+  int count = static_cast<int>(words.size());
+  benchmark::Initialize(&count, words.data());
+  if (benchmark::ReportUnrecognizedArguments(count, words.data())) return 1;
   benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }

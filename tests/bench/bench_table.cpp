@@ -21,29 +21,39 @@ std::string short_number(double x) {
   return fmt::format("{:.3g}", x);
 }
 
-double updates_of(const Results& r, const std::string& model) {
-  return r.median("flag-400/" + model, "updates/s");
+/// What bench_array and bench_rtl call their models: array/model.
+const std::string in_systemc = "flag-400", in_verilog = "flag-400 rtl";
+
+double updates_of(const Results& r, const std::string& model, const std::string& array = in_systemc) {
+  return r.median(array + "/" + model, "updates/s");
 }
 
 /// Fastest first; the file has them in the order of their random turns.
-std::vector<std::string> models(const Results& r) {
-  auto names = r.names("flag-400");
+std::vector<std::string> models(const Results& r, const std::string& array = in_systemc) {
+  auto names = r.names(array);
   std::sort(names.begin(), names.end(),
-            [&r](const auto& a, const auto& b) { return updates_of(r, a) > updates_of(r, b); });
+            [&](const auto& a, const auto& b) { return updates_of(r, a, array) > updates_of(r, b, array); });
   return names;
 }
 
 // ---- tables of figures
 
-void print_speeds(const Results& r) {
-  fmt::print("\nThe array of flag-400 (380 cells, 1,140 neurons, 12 phases), one process, turns at random\n");
-  fmt::print("  {:<30}{:>16}{:>16}{:>10}\n", "model", "updates/s", "cycles/s", "spread");
-  for (const auto& name : models(r)) {
-    const auto updates = r.samples("flag-400/" + name, "updates/s");
-    fmt::print("  {:<30}{:>16}{:>16}{:>8.0f} %\n", name, short_number(updates.median()),
-               short_number(r.median("flag-400/" + name, "cycles/s")),
+void print_speeds(const Results& r, const std::string& array) {
+  fmt::print("  {:<32}{:>14}{:>14}{:>11}{:>10}\n", "model", "updates/s", "cycles/s", "ns/cycle", "spread");
+  for (const auto& name : models(r, array)) {
+    const auto updates = r.samples(array + "/" + name, "updates/s");
+    const double cycles = r.median(array + "/" + name, "cycles/s");
+    fmt::print("  {:<32}{:>14}{:>14}{:>11.1f}{:>8.0f} %\n", name, short_number(updates.median()),
+               short_number(cycles), 1e9 / cycles,
                100 * (updates.largest() - updates.least()) / updates.median());
   }
+}
+
+void print_all_speeds(const Results& r) {
+  fmt::print("\nThe array of flag-400 (380 cells, 1,140 neurons, 12 phases), one process, turns at random\n");
+  print_speeds(r, in_systemc);
+  fmt::print("\nThe same array in Verilog, in a process of its own\n");
+  print_speeds(r, in_verilog);
 }
 
 /// Processor seconds of 400 steps: parts measured inside, the rest by difference of whole processes.
@@ -199,7 +209,7 @@ std::string picture(const Results& r) {
 
 int print_all(const Results& r, const std::string& picture_file) {
   if (r.errors().empty()) {
-    print_speeds(r);
+    print_all_speeds(r);
     print_parts(r);
     print_host(r);
     double largest_mb = 0;
@@ -214,14 +224,14 @@ int print_all(const Results& r, const std::string& picture_file) {
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    fmt::print(stderr, "usage: bench_table ARRAY.json PROGRAM.json HOST.json [PICTURE.svg]\n");
+  if (argc < 5) {
+    fmt::print(stderr, "usage: bench_table ARRAY.json RTL.json PROGRAM.json HOST.json [PICTURE.svg]\n");
     return 2;
   }
   try {
     Results results;
-    for (int k = 1; k <= 3; ++k) results.read(argv[k]);
-    return print_all(results, argc > 4 ? argv[4] : "");
+    for (int k = 1; k <= 4; ++k) results.read(argv[k]);
+    return print_all(results, argc > 5 ? argv[5] : "");
   } catch (const std::exception& e) {
     fmt::print(stderr, "bench: {}\n", e.what());
     return 1;
