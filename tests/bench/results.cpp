@@ -22,14 +22,21 @@ double Samples::largest() const {
   return *std::max_element(values.begin(), values.end());
 }
 
-// Google Benchmark appends its settings to a name: "/iterations:1/repeats:9" and the like.
+// Google Benchmark appends its settings to a name: "/iterations:1/repeats:9", "/min_time:0.1/real_time".
+std::string without_settings(const std::string& name) {
+  std::size_t end = name.size();
+  for (const char* setting : {"/iterations:", "/min_time:", "/repeats:", "/real_time"})
+    end = std::min(end, name.find(setting));
+  return name.substr(0, end);
+}
+
 void Results::read(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error("cannot read " + file);
   const auto json = nlohmann::json::parse(stream);
   for (const auto& entry : json.at("benchmarks")) {
     if (entry.at("run_type") != "iteration") continue;
-    const std::string full = entry.at("name"), name = full.substr(0, full.find("/iterations:"));
+    const std::string name = without_settings(entry.at("name"));
     if (entry.value("error_occurred", false))
       errors_.push_back(name + ": " + entry.value("error_message", "failed"));
     for (const auto& [counter, value] : entry.items())
