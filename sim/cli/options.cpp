@@ -30,6 +30,22 @@ void add_common(CLI::App& verb, CommonOptions& options) {
       ->allow_extra_args(false);
 }
 
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./=:,") == std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string words_of(const CommonOptions& options) {
+  std::string words = shell_word(options.scene);
+  if (!options.array.empty()) words += " --array " + shell_word(options.array);
+  for (const auto& override : options.overrides) words += " --set " + shell_word(override);
+  return words;
+}
+
 Prepared prepare(const CommonOptions& options) {
   Prepared p{scene::read_inputs(options.scene, options.array, options.overrides), nullptr};
   p.mesh = std::make_unique<study::BuiltMesh>(p.inputs.scene);

@@ -21,6 +21,10 @@ struct CommonOptions {
 
 /// SCENE, --array, --set.
 void add_common(CLI::App& verb, CommonOptions& options);
+/// The same as a shell takes them back.
+std::string words_of(const CommonOptions& options);
+/// A word in quotes where a shell would ask for them.
+std::string shell_word(const std::string& word);
 
 /// A check for counts of steps: an integer from `least` to a billion, refused in words that fit a line.
 CLI::Validator whole_number(std::int64_t least);
@@ -56,5 +60,7 @@ void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_network(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
+void add_vectors(CLI::App& program, int& exit_code);
+void add_fuzz(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

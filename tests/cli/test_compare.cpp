@@ -9,7 +9,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string equal = "Fixed levels: every code, sweep count and cycle count of every step is equal.";
+const std::string equal = "sweeps, every code; sweep and cycle counts of every step too.";
 
 class CliCompare : public Cli {};
 
