@@ -122,8 +122,11 @@ void add_fuzz(CLI::App& program, int& exit_code) {
   verb->add_option("--seconds", o->seconds, "no case is begun after so many (10, where --cases is not given)")
       ->check(CLI::Range(0.001, 1e9));
   verb->add_option("--cases", o->cases, "so many cases")->check(whole_number(1));
-  verb->add_option("--seed", o->seed, "seed and number make a case, on any machine")->capture_default_str();
+  verb->add_option("--seed", o->seed, "seed and number make a case, on any machine")
+      ->check(whole_number(0, INT64_MAX))
+      ->capture_default_str();
   verb->add_option("--first", o->first, "the first case: how a campaign is gone on with")
+      ->check(whole_number(0, INT64_MAX))
       ->capture_default_str();
   verb->add_option("--levels", o->levels,
                    "engine (all its kernels and ways of sweeping), systemc, systemc-clock")

@@ -11,8 +11,7 @@
 
 namespace hopmesh::cli {
 
-CLI::Validator whole_number(std::int64_t least) {
-  constexpr std::int64_t most = 1'000'000'000; // as many steps as a scene may have
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const auto judge = [=](const std::string& text) {
     std::int64_t number = 0;
     const char* end = text.data() + text.size();

@@ -26,8 +26,9 @@ std::string words_of(const CommonOptions& options);
 /// A word in quotes where a shell would ask for them.
 std::string shell_word(const std::string& word);
 
-/// A check for counts of steps: an integer from `least` to a billion, refused in words that fit a line.
-CLI::Validator whole_number(std::int64_t least);
+/// A check for counts: an integer from `least` to `most` (a billion: as many steps as a scene may have),
+/// refused in words that fit a line.
+CLI::Validator whole_number(std::int64_t least, std::int64_t most = 1'000'000'000);
 
 /// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
 struct Prepared {

@@ -102,7 +102,8 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
   verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");
   verb->footer(
-      "Example:\n  hopmesh run two-nodes --steps 5 --out out/first --wave out/first/wave.vcd --wave-window "
+      "Example:\n  hopmesh run two-nodes --level systemc --steps 5 --out out/first --wave out/first/wave.vcd "
+      "--wave-window "
       "0:1\n"
       "Exit: 0 done, 1 the motion diverged, 2 bad input, 130 interrupted (results so far are complete).");
   verb->callback([o, &exit_code] { exit_code = run(*o); });

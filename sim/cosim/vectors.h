@@ -57,6 +57,7 @@ class VectorReader {
  private:
   using Words = std::vector<std::string>;
   bool read_line();
+  Words split() const;
   Words expect(const std::string& key, const std::string& shape);
   [[noreturn]] void fail(const std::string& found, const std::string& expected,
                          const std::string& nearest = "") const;

@@ -11,7 +11,6 @@
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace hopmesh::cosim {
 
@@ -19,17 +18,8 @@ using scene::in_quotes;
 
 namespace {
 
-constexpr std::int64_t most_count = std::int64_t{1} << 53;
-
 template <std::size_t n> std::vector<std::string> names_in(const std::array<std::string_view, n>& names) {
   return {names.begin(), names.end()};
-}
-
-std::vector<std::string> words_in(const std::string& line) {
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
 }
 
 std::optional<spec::NumberFormat> format_in(const std::vector<std::string>& words) {
@@ -78,7 +68,7 @@ bool VectorReader::read_line() {
 // The words behind `key`, which must begin the next line.
 VectorReader::Words VectorReader::expect(const std::string& key, const std::string& shape) {
   if (!read_line()) fail("the end of the file", shape);
-  Words words = words_in(text_);
+  Words words = split();
   if (words[0] != key) fail(in_quotes(text_), shape, scene::nearest_name(words[0], {key}));
   words.erase(words.begin());
   return words;
@@ -101,7 +91,7 @@ std::int32_t VectorReader::code(const std::string& word) const {
 bool VectorReader::next(VectorCase& a_case) {
   skip_answers();
   if (!read_line()) return false;
-  const Words words = words_in(text_);
+  const Words words = split();
   if (words[0] != "case" || words.size() < 2)
     fail(in_quotes(text_), "case NAME", scene::nearest_name(words[0], {"case"}));
   a_case.name = text_.substr(text_.find(words[1], text_.find("case") + 4));
@@ -259,47 +249,6 @@ void VectorReader::read_phases(const ArrayJob& job) {
     if (same) continue;
     const std::string all = fmt::format("phase {} {}", k, fmt::join(phases_[k], " "));
     fail(in_quotes(text_), (all.size() > 100 ? all.substr(0, 100) + "..." : all) + " by the schedule");
-  }
-}
-
-// ---- answers ----
-
-AnswerLine VectorReader::answer() {
-  const std::string fire =
-      fmt::format("fire {} {} CYCLE and {} outputs", next_sweep_, next_phase_, phases_[next_phase_].size());
-  const std::string shape =
-      next_phase_ > 0 || next_sweep_ == 1 ? fire : fire + ", or end SWEEPS CONVERGED LARGEST_CHANGE CYCLES";
-  if (!read_line()) fail("the end of the file", shape);
-  const Words w = words_in(text_);
-  if (w[0] == "?") fail("?", "answers: this case was not filled in");
-  AnswerLine a;
-  a.line = line_;
-  a.end = w[0] == "end" && next_phase_ == 0 && next_sweep_ > 1;
-  if (a.end) {
-    if (w.size() != 5) fail(in_quotes(text_), "end SWEEPS CONVERGED LARGEST_CHANGE CYCLES");
-    a.run = {static_cast<std::uint32_t>(number(w[1], 0, UINT32_MAX, "sweeps")),
-             number(w[2], 0, 1, "converged") == 1,
-             static_cast<std::uint32_t>(number(w[3], 0, UINT32_MAX, "the largest change")),
-             static_cast<std::uint64_t>(number(w[4], 0, most_count, "cycles"))};
-    in_answers_ = false;
-    return a;
-  }
-  if (w[0] != "fire") fail(in_quotes(text_), shape, scene::nearest_name(w[0], {"fire", "end"}));
-  if (w.size() != 4 + phases_[next_phase_].size() || w[1] != std::to_string(next_sweep_) ||
-      w[2] != std::to_string(next_phase_))
-    fail(in_quotes(text_), shape);
-  a.sweep = next_sweep_, a.phase = next_phase_;
-  a.cycle = static_cast<std::uint64_t>(number(w[3], 0, most_count, "a cycle"));
-  for (std::size_t k = 4; k < w.size(); ++k) a.codes.push_back(code(w[k]));
-  if (++next_phase_ == phases_.size()) next_phase_ = 0, next_sweep_ += 1;
-  return a;
-}
-
-void VectorReader::skip_answers() {
-  while (in_answers_) {
-    if (!read_line()) fail("the end of the file", "end of the answers");
-    const std::string word = words_in(text_)[0];
-    in_answers_ = word != "end" && word != "?";
   }
 }
 
