@@ -18,6 +18,7 @@ struct CompareOptions {
 };
 
 int compare(CompareOptions& o) {
+  const std::string inputs = words_of(o.common);
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   for (const std::string& level : o.levels) check_level(level, "--levels");
   const Prepared p = prepare(o.common);
@@ -43,7 +44,7 @@ int compare(CompareOptions& o) {
         contenders, *p.mesh, p.inputs.array, steps, [&](const study::StepRow& row) { progress.step(row); },
         stop_requested);
   }
-  fmt::print("{}", study::text_of(comparison, o.common.scene, p.inputs.array));
+  fmt::print("{}", study::text_of(comparison, inputs, p.inputs.array));
   if (comparison.outcome == study::Outcome::interrupted) return interrupted;
   return comparison.difference || comparison.outcome == study::Outcome::diverged ? differs : done;
 }

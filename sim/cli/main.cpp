@@ -59,6 +59,8 @@ int program(int argc, char** argv) {
   cli::add_compare(app, exit_code);
   cli::add_network(app, exit_code);
   cli::add_info(app, exit_code);
+  cli::add_vectors(app, exit_code);
+  cli::add_fuzz(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -11,8 +11,7 @@
 
 namespace hopmesh::cli {
 
-CLI::Validator whole_number(std::int64_t least) {
-  constexpr std::int64_t most = 1'000'000'000; // as many steps as a scene may have
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const auto judge = [=](const std::string& text) {
     std::int64_t number = 0;
     const char* end = text.data() + text.size();
@@ -28,6 +27,22 @@ void add_common(CLI::App& verb, CommonOptions& options) {
   verb.add_option("--array", options.array, "an array file, or the name of a preset");
   verb.add_option("--set", options.overrides, "key.path=value: overrides a key of the scene or the array")
       ->allow_extra_args(false);
+}
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./=:,") == std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string words_of(const CommonOptions& options) {
+  std::string words = shell_word(options.scene);
+  if (!options.array.empty()) words += " --array " + shell_word(options.array);
+  for (const auto& override : options.overrides) words += " --set " + shell_word(override);
+  return words;
 }
 
 Prepared prepare(const CommonOptions& options) {

@@ -21,9 +21,14 @@ struct CommonOptions {
 
 /// SCENE, --array, --set.
 void add_common(CLI::App& verb, CommonOptions& options);
+/// The same as a shell takes them back.
+std::string words_of(const CommonOptions& options);
+/// A word in quotes where a shell would ask for them.
+std::string shell_word(const std::string& word);
 
-/// A check for counts of steps: an integer from `least` to a billion, refused in words that fit a line.
-CLI::Validator whole_number(std::int64_t least);
+/// A check for counts: an integer from `least` to `most` (a billion: as many steps as a scene may have),
+/// refused in words that fit a line.
+CLI::Validator whole_number(std::int64_t least, std::int64_t most = 1'000'000'000);
 
 /// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
 struct Prepared {
@@ -56,5 +61,7 @@ void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_network(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
+void add_vectors(CLI::App& program, int& exit_code);
+void add_fuzz(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

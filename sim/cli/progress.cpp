@@ -37,6 +37,26 @@ void Progress::draw(const study::StepRow& row, Clock::time_point now) {
   std::fflush(stderr);
 }
 
+CountProgress::CountProgress(const char* what, std::uint64_t total)
+    : what_(what), total_(total), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
+
+CountProgress::~CountProgress() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void CountProgress::count(std::uint64_t done) {
+  const auto now = Clock::now();
+  if (!shown_ || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  const double seconds = std::chrono::duration<double>(now - began_).count();
+  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  fmt::print(stderr, "\r\033[K{}{} {}, {:.0f} s, {:.0f}/s", done,
+             total_ > 0 ? fmt::format(" of {}", total_) : "", what_, seconds, rate);
+  if (total_ > done && rate > 0)
+    fmt::print(stderr, ", {:.0f} s left", static_cast<double>(total_ - done) / rate);
+  std::fflush(stderr);
+}
+
 std::atomic<bool> stop_requested{false};
 
 namespace {

@@ -25,6 +25,23 @@ class Progress : public study::StepSink {
   std::chrono::steady_clock::time_point began_, drawn_;
 };
 
+/// The same for things that are counted; `total` 0: nobody knows how many.
+class CountProgress {
+ public:
+  CountProgress(const char* what, std::uint64_t total);
+  ~CountProgress();
+  CountProgress(const CountProgress&) = delete;
+  CountProgress& operator=(const CountProgress&) = delete;
+
+  void count(std::uint64_t done);
+
+ private:
+  const char* const what_;
+  const std::uint64_t total_;
+  const bool shown_;
+  std::chrono::steady_clock::time_point began_, drawn_;
+};
+
 /// Set by Ctrl-C and SIGTERM once catch_interrupts() was called; a second signal ends the program at once.
 extern std::atomic<bool> stop_requested;
 void catch_interrupts();

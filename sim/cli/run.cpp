@@ -20,20 +20,9 @@ struct RunOptions {
   bool check = false, no_check = false;
 };
 
-std::string shell_word(const std::string& word) {
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,") ==
-      std::string::npos)
-    return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // The command that repeats a run; where its files go is no part of it.
 std::string command_of(const RunOptions& o) {
-  std::string command = "hopmesh run " + shell_word(o.common.scene) + " --level " + o.level;
-  if (!o.common.array.empty()) command += " --array " + shell_word(o.common.array);
-  for (const auto& override : o.common.overrides) command += " --set " + shell_word(override);
+  std::string command = "hopmesh run " + words_of(o.common) + " --level " + o.level;
   if (o.steps > 0) command += " --steps " + std::to_string(o.steps);
   return command;
 }
@@ -113,7 +102,8 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
   verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");
   verb->footer(
-      "Example:\n  hopmesh run two-nodes --steps 5 --out out/first --wave out/first/wave.vcd --wave-window "
+      "Example:\n  hopmesh run two-nodes --level systemc --steps 5 --out out/first --wave out/first/wave.vcd "
+      "--wave-window "
       "0:1\n"
       "Exit: 0 done, 1 the motion diverged, 2 bad input, 130 interrupted (results so far are complete).");
   verb->callback([o, &exit_code] { exit_code = run(*o); });

@@ -1,5 +1,6 @@
 #include "sim/study/compare.h"
 
+#include "firmware/registers.h"
 #include "sim/study/array_info.h"
 
 #include <algorithm>
@@ -32,19 +33,6 @@ void note(LevelReport& report, const StepRow& row) {
   report.rms_output_error = std::max(report.rms_output_error, row.error->rms_output);
   report.largest_energy_gap = std::max(report.largest_energy_gap, row.error->energy_gap);
   report.largest_network_error = std::max(report.largest_network_error, row.error->network);
-}
-
-// Two fixed levels after the same step; explained by running its network again on both.
-std::optional<Difference> difference(const Contender& a, const StepRow& row_a, const Contender& b,
-                                     const StepRow& row_b, const BuiltMesh& mesh,
-                                     const spec::ArraySpec& array) {
-  const bool same_codes = a.array->rest_raw() == b.array->rest_raw();
-  if (same_codes && row_a.sweeps == row_b.sweeps && row_a.cycles == row_b.cycles) return std::nullopt;
-  Difference d{
-      {a.level, b.level}, row_a.step, {row_a.sweeps, row_b.sweeps}, {row_a.cycles, row_b.cycles}, {}};
-  const LoadedNetwork network = loaded_network(a.port->bus(), mesh.topology(), a.array->start_raw());
-  d.where = first_difference(a.port->bus(), b.port->bus(), mesh, array, network);
-  return d;
 }
 
 bool is_mark(std::uint64_t step, std::uint64_t steps) {
@@ -83,17 +71,95 @@ void note_rows(const std::vector<Contender>& contenders, const std::vector<StepR
   }
 }
 
+Difference difference(const Contender& a, const StepRow& row_a, const Contender& b, const StepRow& row_b) {
+  Difference d;
+  d.level[0] = a.level, d.level[1] = b.level;
+  d.step = row_a.step;
+  d.sweeps[0] = row_a.sweeps, d.sweeps[1] = row_b.sweeps;
+  d.cycles[0] = row_a.cycles, d.cycles[1] = row_b.cycles;
+  return d;
+}
+
+// All fixed levels of a comparison after one step: the first of them, and the others held against it.
+class Round {
+ public:
+  Round(const std::vector<Contender>& contenders, const std::vector<StepRow>& rows, const BuiltMesh& mesh,
+        const spec::ArraySpec& array)
+      : contenders_(contenders), rows_(rows), mesh_(mesh) {
+    for (std::size_t k = 0; k < contenders.size(); ++k)
+      if (contenders[k].array) fixed_.push_back(k), buses_.push_back(&contenders[k].port->bus());
+    if (fixed_.size() < 2) return;
+    const cosim::BusArray first(*buses_[0], mesh.topology());
+    run_sweeps_ = first.read(HM_REG_SWEEPS);
+    const std::uint64_t high = first.read(HM_REG_CYCLES_HI);
+    run_cycles_ = high << 32 | first.read(HM_REG_CYCLES_LO);
+    job_ = cosim::loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
+  }
+
+  std::size_t pairs() const { return fixed_.empty() ? 0 : fixed_.size() - 1; }
+  std::uint32_t sweeps() const { return run_sweeps_; }
+
+  /// Nothing if every level gave the same answer, and gives it again sweep by sweep.
+  std::optional<Difference> judge() {
+    for (std::size_t k = 1; k < fixed_.size(); ++k)
+      if (auto d = difference_of_answers(k)) return d;
+    if (pairs() == 0) return std::nullopt;
+    const cosim::Lockstep l = cosim::run_in_lockstep(buses_, job_, run_sweeps_);
+    if (!l.where && l.outputs[0] == of(0).array->rest_raw()) return std::nullopt;
+    Difference d = between(l.where ? l.other : 0);
+    if (!l.where) d.level[1] += " sweep by sweep";
+    if (l.where) d.where = in_mesh(*l.where, mesh_, job_);
+    return d;
+  }
+
+ private:
+  const Contender& of(std::size_t k) const { return contenders_[fixed_[k]]; }
+  Difference between(std::size_t k) const {
+    Difference d = difference(of(0), rows_[fixed_[0]], of(k), rows_[fixed_[k]]);
+    d.cycles_before = rows_[fixed_[0]].cycles - run_cycles_;
+    return d;
+  }
+
+  // What the levels said of themselves, and what they have loaded; explained by running the network again.
+  std::optional<Difference> difference_of_answers(std::size_t k) const {
+    const StepRow &a = rows_[fixed_[0]], &b = rows_[fixed_[k]];
+    const bool same_codes = of(0).array->rest_raw() == of(k).array->rest_raw();
+    const cosim::Buses two{buses_[0], buses_[k]};
+    const std::string memory = cosim::memory_difference(two, mesh_.topology());
+    if (same_codes && a.sweeps == b.sweeps && a.cycles == b.cycles && memory.empty()) return std::nullopt;
+    Difference d = between(k);
+    d.memory = memory;
+    d.where = first_difference(two, mesh_, job_, job_.max_sweeps);
+    return d;
+  }
+
+  const std::vector<Contender>& contenders_;
+  const std::vector<StepRow>& rows_;
+  const BuiltMesh& mesh_;
+  std::vector<std::size_t> fixed_;
+  cosim::Buses buses_;
+  cosim::ArrayJob job_;
+  std::uint32_t run_sweeps_ = 0;
+  std::uint64_t run_cycles_ = 0;
+};
+
 // Every fixed level against the first of them.
 void compare_codes(const std::vector<Contender>& contenders, const std::vector<StepRow>& rows,
                    const BuiltMesh& mesh, const spec::ArraySpec& array, Comparison& result) {
-  std::size_t first = 0;
-  while (first < contenders.size() && !contenders[first].array) ++first;
-  result.pairs = 0;
-  for (std::size_t k = first + 1; k < contenders.size() && !result.difference; ++k) {
-    if (!contenders[k].array) continue;
-    result.difference = difference(contenders[first], rows[first], contenders[k], rows[k], mesh, array);
-    result.pairs += 1;
+  try {
+    Round round(contenders, rows, mesh, array);
+    result.pairs = round.pairs();
+    result.difference = round.judge();
+    if (!result.difference) result.sweeps_compared += round.sweeps();
+  } catch (const cosim::BusFault& fault) {
+    if (fault.error != HM_ERROR_STOPPED) throw;
+    result.outcome = Outcome::interrupted;
   }
+  if (!result.difference) return;
+  // The levels' totals have this step in them already.
+  for (const LevelReport& report : result.levels)
+    if (report.level == result.difference->level[0])
+      result.difference->cycles_before += report.cycles - result.difference->cycles[0];
 }
 
 // The reference, where it takes part, comes first.
@@ -133,29 +199,29 @@ Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, co
 
 namespace {
 
-std::string text_of(const FirstDifference& w, const Difference& d) {
-  std::string text = fmt::format(
-      "  sweep {}, cycle {} of the run, node {}, neuron {}: V {} -> {} ({}) or {} ({})\n", w.sweep, w.cycle,
-      w.node, w.component, w.before_raw, w.raw[0], d.level[0], w.raw[1], d.level[1]);
-  text += fmt::format("  its inputs one update earlier, bias {}:\n", w.bias_raw);
-  for (const NeuronInput& in : w.inputs)
-    text += fmt::format("    node {:>6} neuron {}  weight {:>11}  V {:>11}\n", in.node, in.component,
-                        in.weight_raw, in.output_raw);
-  return text;
+// From the sweep before to the sweep behind the difference; the whole step where no cycle is known.
+std::string wave_command(const Difference& d, const std::string& inputs) {
+  std::string command =
+      fmt::format("hopmesh run {} --level systemc --no-check --steps {} --out out/difference "
+                  "--wave difference.vcd --wave-window ",
+                  inputs, d.step + 1);
+  if (!d.where) return command + fmt::format("{}:{}", d.step, d.step + 1);
+  const std::uint64_t at = d.cycles_before + d.where->cycle, around = d.where->sweep_cycles;
+  return command +
+         fmt::format("{}:{}c --wave-cells {}", at - std::min(at, around), at + around, d.where->cell);
 }
 
-std::string text_of(const Difference& d, const std::string& scene) {
+std::string text_of(const Difference& d, const std::string& inputs) {
   std::string text =
       fmt::format("{} and {} differ first in step {}: {} sweeps and {} cycles against {} and {}\n",
                   d.level[0], d.level[1], d.step, d.sweeps[0], d.cycles[0], d.sweeps[1], d.cycles[1]);
+  if (!d.memory.empty()) text += fmt::format("  their memories differ, {}\n", d.memory);
   if (d.where)
-    text += text_of(*d.where, d);
+    text += text_of(*d.where, d.level[0], d.level[1]);
   else
     text += "  run again from the same start, every output is the same after every sweep: the fault does not "
             "repeat\n";
-  return text + fmt::format("  a wave of that step: hopmesh run {} --level systemc --steps {} --wave "
-                            "step.vcd --wave-window {}:{}\n",
-                            scene, d.step + 1, d.step, d.step + 1);
+  return text + fmt::format("  a wave around it: {}\n", wave_command(d, inputs));
 }
 
 std::string text_of(const LevelReport& r) {
@@ -177,11 +243,16 @@ std::string text_of(const LevelReport& r) {
 
 } // namespace
 
-std::string text_of(const Comparison& c, const std::string& scene, const spec::ArraySpec& array) {
-  std::string text = fmt::format("{} on array {}, {} steps. {}\n", scene, array.name, c.steps, c.sentence);
+std::string text_of(const Comparison& c, const std::string& inputs, const spec::ArraySpec& array) {
+  const auto end = inputs[0] == '\'' ? inputs.find("' ") : inputs.find(' '); // of the scene's word
+  std::string text =
+      fmt::format("{} on array {}, {} steps. {}\n", inputs.substr(0, end), array.name, c.steps, c.sentence);
   for (const LevelReport& report : c.levels) text += text_of(report);
-  if (c.difference) return text + text_of(*c.difference, scene);
-  if (c.pairs > 0) text += "Fixed levels: every code, sweep count and cycle count of every step is equal.\n";
+  if (c.difference) return text + text_of(*c.difference, inputs);
+  if (c.pairs > 0)
+    text += fmt::format("Fixed levels: equal after each of {} sweeps, every code; sweep and cycle counts of "
+                        "every step too.\n",
+                        grouped(c.sweeps_compared));
   return text;
 }
 

@@ -32,7 +32,10 @@ struct Difference {
   std::string level[2];
   std::uint64_t step = 0;
   std::uint64_t sweeps[2] = {0, 0}, cycles[2] = {0, 0};
+  /// Cycles of all runs before the one that differs (the step's last expansion), as waves count them.
+  std::uint64_t cycles_before = 0;
   std::optional<FirstDifference> where; ///< none: equal outputs, unequal sweeps or cycles
+  std::string memory;                   ///< the word in which the loaded networks differ; mostly none
 };
 
 struct Comparison {
@@ -40,18 +43,20 @@ struct Comparison {
   std::string sentence;
   std::uint64_t steps = 0;
   std::vector<LevelReport> levels;
-  std::size_t pairs = 0;                ///< pairs of fixed levels compared, every code of every step
+  std::size_t pairs = 0;                ///< pairs of fixed levels compared, every code after every sweep
+  std::uint64_t sweeps_compared = 0;    ///< after which all fixed levels were equal
   std::optional<Difference> difference; ///< the first; nothing after it was compared
 };
 
-/// Advances all contenders together; a reference must come first. `after_step` is told the number of steps
-/// done.
+/// Advances all contenders together; a reference must come first. After each step the fixed levels relax its
+/// network once more, in lockstep, and are compared after every sweep (with several expansions: that of the
+/// last one). `after_step` is told the number of steps done.
 Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, const spec::ArraySpec& array,
                    std::uint64_t steps, const std::function<void(const StepRow&)>& after_step,
                    const std::atomic<bool>& stop);
 
-/// The comparison for people, a few lines. `scene` names it in the command that cuts a wave around a
-/// difference.
-std::string text_of(const Comparison& comparison, const std::string& scene, const spec::ArraySpec& array);
+/// The comparison for people, a few lines. `inputs`: SCENE and options as a command line has them, for the
+/// command that cuts a wave around a difference.
+std::string text_of(const Comparison& comparison, const std::string& inputs, const spec::ArraySpec& array);
 
 } // namespace hopmesh::study

@@ -23,6 +23,7 @@ HM_WIDE std::int32_t Stream::read() const {
   __m512i sum[8];
   for (__m512i& s : sum) s = _mm512_setzero_si512();
   for (std::size_t at = 0; at < bytes_ / 4; at += 128)
+#pragma GCC unroll 8
     for (std::size_t k = 0; k < 8; ++k)
       sum[k] = _mm512_dpwssd_epi32(sum[k], one, _mm512_load_si512(data_ + at + 16 * k));
   __m512i all = sum[0];
@@ -36,11 +37,13 @@ HM_WIDE double multiply_add_peak() {
   constexpr int rounds = 20000, chains = 12;
   __m512i sum[chains], one = _mm512_set1_epi16(1);
   for (__m512i& s : sum) s = _mm512_setzero_si512();
-  for (int r = 0; r < rounds; ++r)
-    for (__m512i& s : sum) {
-      s = _mm512_dpwssd_epi32(s, one, one);
-      __asm__ volatile("" : "+v"(s)); // each is done
+  for (int r = 0; r < rounds; ++r) {
+#pragma GCC unroll 12
+    for (int k = 0; k < chains; ++k) {
+      sum[k] = _mm512_dpwssd_epi32(sum[k], one, one);
+      __asm__ volatile("" : "+v"(sum[k])); // each is done
     }
+  }
   return 32.0 * rounds * chains;
 }
 

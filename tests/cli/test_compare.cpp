@@ -9,7 +9,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string equal = "Fixed levels: every code, sweep count and cycle count of every step is equal.";
+const std::string equal = "sweeps, every code; sweep and cycle counts of every step too.";
 
 class CliCompare : public Cli {};
 
@@ -19,7 +19,7 @@ TEST_F(CliCompare, SystemcAndSystemcClockAreEqual) {
   EXPECT_THAT(f.out, HasSubstr(equal));
 }
 
-TEST_F(CliCompare, ByDefaultTakesReferenceEngineAndSystemc) {
+TEST_F(CliCompare, ByDefaultTakesReferenceEngineAndSystemcAndTellsTheError) {
   const Finished f = good("compare two-nodes --steps 10");
   EXPECT_THAT(f.out, HasSubstr("reference: "));
   EXPECT_THAT(f.out, HasSubstr("engine: "));
@@ -27,11 +27,20 @@ TEST_F(CliCompare, ByDefaultTakesReferenceEngineAndSystemc) {
   EXPECT_THAT(f.out, HasSubstr("each step against the reference's answer to the same step"));
   EXPECT_THAT(f.out, HasSubstr("after     1 steps  rms "));
   EXPECT_THAT(f.out, HasSubstr("after    10 steps  rms "));
+  EXPECT_THAT(f.out, HasSubstr("engine: "));
   EXPECT_THAT(f.out, HasSubstr(equal));
 }
 
-TEST_F(CliCompare, OneFixedLevelHasNothingToBeEqualTo) {
-  EXPECT_THAT(good("compare two-nodes --steps 3 --levels reference,engine").out, Not(HasSubstr(equal)));
+TEST_F(CliCompare, OfOneFixedLevelThereIsNothingToBeEqualTo) {
+  EXPECT_THAT(good("compare two-nodes --steps 3 --levels reference,systemc").out, Not(HasSubstr(equal)));
+}
+
+// The command that a difference prints, with cycles of this run: it has to be one that runs.
+TEST_F(CliCompare, TheCommandForAWaveRuns) {
+  const Finished f = good("run two-nodes --set array.lanes=3 --level systemc --no-check --steps 5 --out "
+                          "out/difference --wave difference.vcd --wave-window 100:160c --wave-cells 0");
+  EXPECT_EQ(f.err, "");
+  EXPECT_GT(std::filesystem::file_size(at("difference.vcd")), 1000u);
 }
 
 TEST_F(CliCompare, TheReferenceNeedNotBeNamedFirst) {

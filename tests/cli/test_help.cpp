@@ -28,7 +28,7 @@ class CliHelp : public Cli {
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb : {"run", "compare", "network", "info"})
+  for (const char* verb : {"run", "compare", "network", "info", "vectors", "fuzz"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -57,6 +57,7 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
   expect_flags("info", {"toml"});
+  expect_flags("vectors", {"step", "sweeps", "random", "seed", "out", "blank", "check", "level"});
 }
 
 TEST_F(CliHelp, VersionNamesVersionCommitAndCompiler) {

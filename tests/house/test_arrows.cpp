@@ -22,10 +22,11 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/rivals", {"sim/scene"}},
     {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h"}},
     {"sim/record", {}},
-    {"sim/study", {"rtl_model/spec", "firmware", "sim/scene", "sim/reference", "sim/record"}},
+    {"sim/cosim", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h", "sim/scene", "sim/record"}},
+    {"sim/study", {"rtl_model/spec", "firmware", "sim/scene", "sim/reference", "sim/record", "sim/cosim"}},
     {"sim/cli",
      {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/scene", "sim/reference", "sim/rivals",
-      "sim/engine", "sim/record", "sim/study"}},
+      "sim/engine", "sim/record", "sim/cosim", "sim/study"}},
 };
 
 // Which rooms may know a library from outside. Firmware knows none but <stdint.h>.

@@ -65,13 +65,14 @@ int SoftArray::transfer(std::uint32_t address, std::uint32_t* words, std::uint32
     else
       words[k] = *word_at(address + 4 * k);
   registers_[HM_REG_BUS_CYCLES_LO] += static_cast<std::uint32_t>(spec::bus_cycles(job_.array, count));
+  if (write && address == HM_WINDOW_OUTPUT) loads_ += 1, sweeps_ = 0;
   if (write && address == HM_REG_CONTROL && (words[0] & HM_CONTROL_START)) run();
   return HM_OK;
 }
 
 /// Sweep by sweep, so that a fault can come in between.
 void SoftArray::run() {
-  const bool faulty = fault_ && runs_++ >= fault_->from_run;
+  const bool faulty = fault_ && loads_ > fault_->from_load;
   const std::uint32_t most = std::max(1u, registers_[HM_REG_MAX_SWEEPS]);
   ArrayResult sweep;
   std::uint32_t sweeps = 0;
@@ -81,7 +82,9 @@ void SoftArray::run() {
     sweep = run_slow_array(job_);
     job_.start = sweep.output();
     sweeps += 1;
-    if (faulty && sweeps == fault_->sweep) job_.start[fault_->neuron] ^= fault_->bit;
+    sweeps_ += 1;
+    if (faulty && (fault_->of_run ? sweeps : sweeps_) == fault_->sweep)
+      job_.start[fault_->neuron] ^= fault_->bit;
   } while (!sweep.converged && sweeps < most);
   registers_[HM_REG_SWEEPS] = sweeps;
   registers_[HM_REG_LARGEST_CHANGE] = sweep.largest_change;

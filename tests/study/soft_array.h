@@ -11,13 +11,16 @@
 
 namespace hopmesh::tests {
 
-/// One output bit flips at the end of a sweep, in every run from `from_run` on.
+/// One output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
+/// since outputs were last written, over all runs: like any real array, this one has no state in a sweep but
+/// V.
 struct Fault {
   std::uint32_t sweep; ///< 1-based
   std::uint32_t neuron;
   std::int32_t bit = 1;          ///< what is flipped, as a mask
-  std::uint32_t from_run = 0;    ///< 0-based, counted in STARTs
-  std::uint64_t more_cycles = 0; ///< that each such run takes beyond the formula
+  std::uint32_t from_load = 0;   ///< 0-based, counted in writes of outputs
+  std::uint64_t more_cycles = 0; ///< that each run of such a relaxation takes beyond the formula
+  bool of_run = false;           ///< sweeps are counted since START instead: a fault of a long run only
 };
 
 class SoftArray : public study::ArrayPort {
@@ -30,6 +33,9 @@ class SoftArray : public study::ArrayPort {
   void begin_step(std::uint64_t step) override { begun.push_back(step); }
   void end_step(std::uint64_t step) override { ended.push_back(step); }
   std::vector<study::SignalRange> inner_ranges() const override;
+
+  /// Counts `from_load` from now.
+  void forget_loads() { loads_ = 0; }
 
   bool refuse = false; ///< every transfer fails from now on
   bool stop = false;   ///< waiting is given up
@@ -44,7 +50,7 @@ class SoftArray : public study::ArrayPort {
   std::optional<Fault> fault_;
   std::map<std::uint32_t, std::uint32_t> registers_;
   std::vector<std::uint32_t> first_link_, link_;
-  std::uint32_t runs_ = 0;
+  std::uint32_t loads_ = 0, sweeps_ = 0;
   hm_bus bus_{};
 };
 

@@ -55,12 +55,14 @@ TEST_F(Compare, EqualLevelsAreEqual) {
   EXPECT_GT(c.levels[0].cycles, 0u);
   EXPECT_EQ(c.levels[0].cycles, c.levels[2].cycles);
   EXPECT_TRUE(c.levels[0].distances.empty());
-  EXPECT_THAT(text(c), HasSubstr("every code, sweep count and cycle count of every step is equal"));
+  EXPECT_THAT(text(c), HasSubstr("Fixed levels: equal after each of " + std::to_string(c.levels[0].sweeps) +
+                                 " sweeps, every code; sweep and cycle counts of every step too."));
 }
 
 TEST_F(Compare, StopsAtTheFirstDifferenceAndExplainsIt) {
-  scene.relax = {0, 5, 1};                                // no time to heal: the fifth sweep is the last
-  add_array("good"), add_array("bad", Fault{5, 7, 1, 1}); // from its second run on: step 1
+  scene.relax = {0, 5, 1}; // no time to heal: the fifth sweep is the last
+  // Each step loads the outputs twice: for its run, and for the run in lockstep. The third load is step 1.
+  add_array("good"), add_array("bad", Fault{5, 7, 1, 2});
   const auto c = run(9);
   ASSERT_TRUE(c.difference);
   EXPECT_EQ(c.steps, 2u);
@@ -76,8 +78,51 @@ TEST_F(Compare, StopsAtTheFirstDifferenceAndExplainsIt) {
   EXPECT_THAT(text(c), HasSubstr("sweep 5, cycle "));
   EXPECT_THAT(text(c), HasSubstr("node 4, neuron 1: V "));
   EXPECT_THAT(text(c),
-              HasSubstr("hopmesh run grid --level systemc --steps 2 --wave step.vcd --wave-window 1:2"));
-  EXPECT_THAT(text(c), Not(HasSubstr("is equal")));
+              HasSubstr("hopmesh run grid --level systemc --no-check --steps 2 --out out/difference --wave "
+                        "difference.vcd --wave-window "));
+  const std::uint64_t at = c.difference->cycles_before + c.difference->where->cycle, sweep = 361;
+  EXPECT_EQ(c.difference->cycles_before, c.levels[0].cycles - c.difference->cycles[0]);
+  EXPECT_THAT(text(c), HasSubstr(std::to_string(at - sweep) + ":" + std::to_string(at + sweep) +
+                                 "c --wave-cells 2\n"));
+  EXPECT_THAT(text(c), Not(HasSubstr("Fixed levels: equal")));
+}
+
+TEST_F(Compare, AFaultThatHealsBeforeRestIsFound) {
+  scene.relax = {1e-3, 300, 1};
+  add_array("good"), add_array("bad", Fault{2, 7, 1, 2});
+  const auto c = run(9);
+  ASSERT_TRUE(c.difference);
+  EXPECT_EQ(c.difference->step, 1u);
+  ASSERT_TRUE(c.difference->where);
+  EXPECT_EQ(c.difference->where->sweep, 2u);
+  EXPECT_EQ(c.difference->where->node, 4u);
+  EXPECT_EQ(motions[0].rest_raw(), motions[1].rest_raw()); // at rest nothing is left of it
+  EXPECT_EQ(c.difference->sweeps[0], c.difference->sweeps[1]);
+}
+
+TEST_F(Compare, AFaultInTheRunInLockstepAloneIsFoundToo) {
+  add_array("good"), add_array("bad", Fault{1, 0, 1, 1}); // from the lockstep of step 0 on
+  const auto c = run(2);
+  ASSERT_TRUE(c.difference);
+  EXPECT_EQ(c.difference->step, 0u);
+  ASSERT_TRUE(c.difference->where);
+  EXPECT_EQ(c.difference->where->sweep, 1u);
+}
+
+TEST_F(Compare, OfSeveralExpansionsTheLastIsRunInLockstep) {
+  scene.relax.expansions = 2;
+  add_array("one"), add_array("two");
+  const auto c = run(3);
+  EXPECT_FALSE(c.difference);
+  EXPECT_GT(c.sweeps_compared, 0u);
+  EXPECT_LT(c.sweeps_compared, c.levels[0].sweeps);
+}
+
+TEST_F(Compare, AnInterruptInTheLockstepEndsIt) {
+  add_array("one"), add_array("two");
+  const auto c = study::compare(
+      contenders, mesh, array, 5, [this](const study::StepRow&) { ports[1].stop = true; }, stop);
+  EXPECT_EQ(c.outcome, Outcome::interrupted);
 }
 
 TEST_F(Compare, AllFixedLevelsAreComparedWithTheFirst) {

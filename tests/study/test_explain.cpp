@@ -1,4 +1,5 @@
 // Two arrays, one of them with a fault: where they part, to the sweep, cycle, neuron and inputs.
+#include "firmware/registers.h"
 #include "sim/study/explain.h"
 #include "tests/study/small_scenes.h"
 #include "tests/study/soft_array.h"
@@ -14,11 +15,20 @@ class Explain : public ::testing::Test {
  protected:
   std::optional<study::FirstDifference> difference(const Fault& fault, std::uint32_t max_sweeps = 20) {
     SoftArray healthy(array, mesh.topology()), faulty(array, mesh.topology(), fault);
-    return study::first_difference(healthy.bus(), faulty.bus(), mesh, array, network(max_sweeps));
+    return difference(healthy, faulty, max_sweeps);
   }
 
-  study::LoadedNetwork network(std::uint32_t max_sweeps) const {
-    study::LoadedNetwork n;
+  std::optional<study::FirstDifference> difference(SoftArray& a, SoftArray& b, std::uint32_t max_sweeps) {
+    const ArrayJob job = network(max_sweeps);
+    for (SoftArray* each : {&a, &b}) {
+      cosim::BusArray(each->bus(), job.topology).load(job);
+      each->forget_loads();
+    }
+    return study::first_difference({&a.bus(), &b.bus()}, mesh, job, max_sweeps);
+  }
+
+  ArrayJob network(std::uint32_t max_sweeps) const {
+    ArrayJob n{array, mesh.topology(), {}, {}, {}};
     for (std::size_t k = 0; k < mesh.topology().weight_words(); ++k)
       n.weight.push_back(-1000 +
                          static_cast<std::int32_t>(k * 37 % 911)); // negative, unlike: it moves for long
@@ -30,9 +40,8 @@ class Explain : public ::testing::Test {
 
   /// V of all neurons after so many sweeps, by the slow array alone.
   std::vector<std::int32_t> after(std::uint32_t sweeps) const {
-    const auto n = network(sweeps);
-    if (sweeps == 0) return n.start;
-    return run_slow_array({array, mesh.topology(), n.weight, n.bias, n.start, 0, sweeps}).output();
+    const ArrayJob n = network(sweeps);
+    return sweeps == 0 ? n.start : run_slow_array(n).output();
   }
 
   spec::ArraySpec array = *spec::preset("descent");
@@ -41,7 +50,7 @@ class Explain : public ::testing::Test {
 
 TEST_F(Explain, EqualArraysHaveNoDifference) {
   SoftArray a(array, mesh.topology()), b(array, mesh.topology());
-  EXPECT_FALSE(study::first_difference(a.bus(), b.bus(), mesh, array, network(12)));
+  EXPECT_FALSE(difference(a, b, 12));
 }
 
 TEST_F(Explain, FindsSweepNodeNeuronAndCodes) {
@@ -71,7 +80,7 @@ TEST_F(Explain, TheCycleIsTheOneInWhichTheNeuronPublished) {
 
 TEST_F(Explain, OfSeveralDifferencesTheEarliestFires) {
   SoftArray a(array, mesh.topology(), Fault{4, 9}), b(array, mesh.topology(), Fault{4, 5});
-  const auto d = study::first_difference(a.bus(), b.bus(), mesh, array, network(20));
+  const auto d = difference(a, b, 20);
   ASSERT_TRUE(d);
   EXPECT_EQ(d->node, 2u); // neuron 5: cell 1
   EXPECT_EQ(d->component, 2u);
@@ -111,19 +120,31 @@ TEST_F(Explain, OrderFollowsTheSchedule) {
   for (const auto& input : d->inputs) EXPECT_EQ(input.output_raw, 100);
 }
 
-TEST_F(Explain, LoadedNetworkReadsTheWindowsBack) {
+TEST_F(Explain, AFaultThatHealsIsFoundWhereItWas) {
+  const auto d = difference({2, 7, 1 << 3}, 300); // long at rest by then
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->sweep, 2u);
+  EXPECT_EQ(d->raw[0] ^ d->raw[1], 1 << 3);
+}
+
+TEST_F(Explain, AFaultOfLongRunsAloneIsFoundByLongerAndLongerRuns) {
+  Fault fault{6, 3};
+  fault.of_run = true; // no run of a single sweep shows it
+  const auto d = difference(fault, 20);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->sweep, 6u);
+  EXPECT_EQ(d->node, 2u);
+  EXPECT_EQ(d->component, 0u);
+}
+
+TEST_F(Explain, ALoadedJobReadsTheWindowsBack) {
   SoftArray port(array, mesh.topology());
-  const auto wanted = network(17);
-  const hm_bus& bus = port.bus();
-  const auto write = [&bus](std::uint32_t at, const std::vector<std::int32_t>& codes) {
-    bus.write_burst(bus.context, at, reinterpret_cast<const std::uint32_t*>(codes.data()),
-                    static_cast<std::uint32_t>(codes.size()));
-  };
-  write(HM_WINDOW_WEIGHT, wanted.weight);
-  write(HM_WINDOW_BIAS, wanted.bias);
-  bus.write(bus.context, HM_REG_THRESHOLD, 5);
-  bus.write(bus.context, HM_REG_MAX_SWEEPS, 17);
-  const auto found = study::loaded_network(bus, mesh.topology(), wanted.start);
+  const ArrayJob wanted = network(17);
+  const cosim::BusArray there(port.bus(), wanted.topology);
+  there.load(wanted);
+  there.write(HM_REG_THRESHOLD, 5);
+  there.write(HM_REG_MAX_SWEEPS, 17);
+  const ArrayJob found = cosim::loaded_job(port.bus(), array, mesh.topology(), wanted.start);
   EXPECT_EQ(found.weight, wanted.weight);
   EXPECT_EQ(found.bias, wanted.bias);
   EXPECT_EQ(found.start, wanted.start);

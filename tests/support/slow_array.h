@@ -2,16 +2,11 @@
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/cosim/array_job.h"
 
 namespace hopmesh::tests {
 
-/// A run: what is built, what the host writes. Codes are words on the bus: weights in Topology's layout.
-struct ArrayJob {
-  spec::ArraySpec array;
-  spec::Topology topology;
-  std::vector<std::int32_t> weight, bias, start;
-  std::uint32_t threshold = 0, max_sweeps = 1;
-};
+using cosim::ArrayJob;
 
 struct ArrayResult {
   std::vector<std::vector<std::int32_t>>

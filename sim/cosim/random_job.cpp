@@ -1,11 +1,11 @@
 // Random meshes, arrays and codes.
-#include "tests/support/random_network.h"
+#include "sim/cosim/random_job.h"
 
 #include "rtl_model/spec/array_rules.h"
 
 #include <set>
 
-namespace hopmesh::tests {
+namespace hopmesh::cosim {
 namespace {
 
 spec::NumberFormat random_format(Dice& dice, int least_integer_bits) {
@@ -189,4 +189,4 @@ std::string describe(const ArrayJob& job) {
          ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);
 }
 
-} // namespace hopmesh::tests
+} // namespace hopmesh::cosim

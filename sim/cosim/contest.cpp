@@ -1,0 +1,101 @@
+#include "sim/cosim/contest.h"
+
+#include "firmware/registers.h"
+#include "sim/cosim/divergence.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::cosim {
+
+Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
+  const BusArray array(bus, job.topology);
+  Answer a;
+  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_FORMAT_ACCUMULATOR; at += 4)
+    a.capabilities.push_back(array.read(at));
+  array.load(job);
+  a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();
+  a.end = array.run(job.threshold, job.max_sweeps);
+  a.output = array.outputs();
+  const std::uint64_t high = array.read(HM_REG_BUS_CYCLES_HI);
+  a.bus_cycles = high << 32 | array.read(HM_REG_BUS_CYCLES_LO);
+  if (!every_sweep) return a;
+  array.put_outputs(job.start);
+  for (std::uint32_t sweep = 0; sweep < a.end.sweeps; ++sweep) {
+    a.sweeps.push_back(array.one_sweep());
+    a.outputs.push_back(array.outputs());
+  }
+  return a;
+}
+
+namespace {
+
+std::string text_of(const RunEnd& e) {
+  return fmt::format("{} sweeps, {}, largest change {}, {} cycles", e.sweeps,
+                     e.converged ? "converged" : "not converged", e.largest_change, e.cycles);
+}
+
+template <typename T>
+std::string unequal_words(const char* what, const std::vector<T>& a, const std::vector<T>& b) {
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+    if (a[k] != b[k]) return fmt::format("{} {}: {} and {}", what, k, a[k], b[k]);
+  return "";
+}
+
+std::string unequal_sweeps(const Answer& a, const Answer& b, const ArrayJob& job) {
+  for (std::size_t k = 0; k < std::min(a.outputs.size(), b.outputs.size()); ++k) {
+    if (a.outputs[k] != b.outputs[k]) {
+      const Divergence d =
+          locate(job, k + 1, k == 0 ? a.start : a.outputs[k - 1], a.outputs[k], b.outputs[k]);
+      return fmt::format("sweep {}, phase {}, cycle {}, neuron {}: {} and {}", d.sweep, d.phase, d.cycle,
+                         d.neuron, d.raw[0], d.raw[1]);
+    }
+    if (!(a.sweeps[k] == b.sweeps[k]))
+      return fmt::format("sweep {}: {} and {}", k + 1, text_of(a.sweeps[k]), text_of(b.sweeps[k]));
+  }
+  return "";
+}
+
+} // namespace
+
+std::string unequal(const Answer& a, const Answer& b, const ArrayJob& job) {
+  for (const std::string& text :
+       {unequal_words("capability register", a.capabilities, b.capabilities),
+        unequal_words("weight word", a.weight, b.weight), unequal_words("bias word", a.bias, b.bias),
+        unequal_words("start word", a.start, b.start), unequal_sweeps(a, b, job),
+        unequal_words("output of neuron", a.output, b.output)})
+    if (!text.empty()) return text;
+  if (!(a.end == b.end)) return text_of(a.end) + " and " + text_of(b.end);
+  if (a.bus_cycles != b.bus_cycles) return fmt::format("bus cycles: {} and {}", a.bus_cycles, b.bus_cycles);
+  return "";
+}
+
+MadeAhead make_ahead(const std::vector<Contestant>& contestants, const ArrayJob& job,
+                     const std::function<bool(std::size_t)>& takes_part) {
+  MadeAhead made(contestants.size());
+  for (std::size_t k = 0; k < contestants.size(); ++k)
+    if (contestants[k].ahead && takes_part(k)) made[k] = contestants[k].make(job);
+  return made;
+}
+
+Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job, const MadeAhead& ahead,
+                 bool every_sweep, const std::function<bool(std::size_t)>& takes_part) {
+  const auto bus_of = [&](std::size_t k) -> SharedBus {
+    if (!takes_part(k)) return nullptr;
+    return contestants[k].ahead ? ahead[k] : contestants[k].make(job);
+  };
+  const Answer first = ask(*bus_of(0), job, every_sweep);
+  for (std::size_t k = 1; k < contestants.size(); ++k)
+    if (const SharedBus bus = bus_of(k)) {
+      const std::string text = unequal(first, ask(*bus, job, every_sweep), job);
+      if (!text.empty()) return {k, contestants[0].name + " and " + contestants[k].name + ": " + text};
+    }
+  return {};
+}
+
+Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job) {
+  const auto all = [](std::size_t) { return true; };
+  return contest(contestants, job, make_ahead(contestants, job, all), true, all);
+}
+
+} // namespace hopmesh::cosim

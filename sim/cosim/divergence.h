@@ -1,0 +1,39 @@
+// Where two answers to one job part: sweep, phase, cycle, neuron, and what that neuron had read.
+#pragma once
+
+#include "rtl_model/spec/schedule.h"
+#include "sim/cosim/bus_array.h"
+
+namespace hopmesh::cosim {
+
+/// When a job's neurons fire.
+struct Timing {
+  explicit Timing(const ArrayJob& job);
+  /// Cycle of the run in which a phase of a sweep (from 1) publishes; the run's cycle 0 takes START.
+  std::uint64_t published(std::uint64_t sweep, std::size_t phase) const;
+
+  spec::Phases phases;
+  spec::CycleModel cycles;
+};
+
+/// One input of a neuron: where it comes from, its weight, and the source's V one update earlier.
+struct Tap {
+  std::uint32_t cell, component;
+  std::int32_t weight_raw, output_raw;
+};
+
+struct Divergence {
+  std::uint64_t sweep = 0; ///< from 1
+  std::size_t phase = 0;
+  std::uint64_t cycle = 0; ///< of the run, in which the neuron published
+  std::uint32_t neuron = 0;
+  std::int32_t raw[2] = {0, 0}; ///< V after it, in either answer
+  std::int32_t before_raw = 0, bias_raw = 0;
+  std::vector<Tap> taps;
+};
+
+/// Of the neurons whose outputs differ after a sweep that began from `before`, the one that fired first.
+Divergence locate(const ArrayJob& job, std::uint64_t sweep, const Codes& before, const Codes& a,
+                  const Codes& b);
+
+} // namespace hopmesh::cosim

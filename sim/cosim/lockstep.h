@@ -1,0 +1,30 @@
+// Several arrays that hold the same network, advanced together, one sweep at a time: equal after each?
+#pragma once
+
+#include "sim/cosim/divergence.h"
+
+#include <optional>
+
+namespace hopmesh::cosim {
+
+using Buses = std::vector<const hm_bus*>;
+
+struct Lockstep {
+  std::uint64_t sweeps = 0;        ///< after which all arrays were equal
+  std::size_t other = 0;           ///< the array that parted from the first
+  std::optional<Divergence> where; ///< none: they never did
+  std::vector<Codes> outputs;      ///< of each array, after the last sweep done
+};
+
+/// `sweeps` runs of one sweep each from the job's start, on memories as they stand: between two sweeps an
+/// array has no state but V, so what it does here is what it does in one run. The arrays must be idle.
+Lockstep run_in_lockstep(const Buses& buses, const ArrayJob& job, std::uint32_t sweeps);
+
+/// The same question to two arrays whose fault depends on how long a run has lasted: the job from its start,
+/// one sweep further each time. Quadratic.
+std::optional<Divergence> part_from_start(const Buses& two, const ArrayJob& job, std::uint32_t sweeps);
+
+/// "WEIGHT word 7: 12 and 13", where the memories of two arrays first differ; "" where they are equal.
+std::string memory_difference(const Buses& two, const spec::Topology& topology);
+
+} // namespace hopmesh::cosim

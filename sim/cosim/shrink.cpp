@@ -1,0 +1,216 @@
+#include "sim/cosim/shrink.h"
+
+#include "rtl_model/spec/array_rules.h"
+
+#include <algorithm>
+
+namespace hopmesh::cosim {
+
+namespace {
+
+/// Which cells, components and links of a job stay.
+struct Kept {
+  std::function<bool(std::uint32_t)> cell = [](std::uint32_t) { return true; };
+  std::function<bool(int)> component = [](int) { return true; };
+  std::function<bool(std::uint32_t, std::uint32_t)> link = [](std::uint32_t, std::uint32_t) { return true; };
+};
+
+std::vector<std::uint32_t> sources_of(const spec::Topology& t, std::uint32_t cell) {
+  std::vector<std::uint32_t> sources{cell};
+  sources.insert(sources.end(), t.link_to.begin() + t.first_link[cell],
+                 t.link_to.begin() + t.first_link[cell + 1]);
+  return sources;
+}
+
+// The job made anew from what is kept; the order of what stays is what it was.
+ArrayJob rebuilt(const ArrayJob& job, const Kept& kept) {
+  const spec::Topology& t = job.topology;
+  const int per_cell = t.neurons_per_cell;
+  ArrayJob small{job.array, {}, {}, {}, {}, job.threshold, job.max_sweeps};
+  std::vector<std::uint32_t> number(t.cells());
+  std::uint32_t cells = 0;
+  for (std::uint32_t c = 0; c < t.cells(); ++c) number[c] = kept.cell(c) ? cells++ : UINT32_MAX;
+  small.topology.neurons_per_cell = 0;
+  for (int p = 0; p < per_cell; ++p) small.topology.neurons_per_cell += kept.component(p);
+  small.topology.first_link.push_back(0);
+  for (std::uint32_t c = 0; c < t.cells(); ++c) {
+    if (!kept.cell(c)) continue;
+    const auto stays = [&](std::uint32_t s) { return s == c || (kept.cell(s) && kept.link(c, s)); };
+    for (std::uint32_t source : sources_of(t, c))
+      if (source != c && stays(source)) small.topology.link_to.push_back(number[source]);
+    small.topology.first_link.push_back(static_cast<std::uint32_t>(small.topology.link_to.size()));
+    for (int p = 0; p < per_cell; ++p) {
+      if (!kept.component(p)) continue;
+      const std::size_t neuron =
+          std::size_t{c} * static_cast<std::size_t>(per_cell) + static_cast<std::size_t>(p);
+      small.start.push_back(job.start[neuron]);
+      small.bias.push_back(job.bias[neuron]);
+      std::size_t at = t.row_offset(c, static_cast<std::size_t>(p));
+      for (std::uint32_t source : sources_of(t, c))
+        for (int q = 0; q < per_cell; ++q, ++at)
+          if (stays(source) && kept.component(q)) small.weight.push_back(job.weight[at]);
+    }
+  }
+  return small;
+}
+
+class Shrinker {
+ public:
+  Shrinker(ArrayJob job, const Differs& differs, std::uint64_t most_trials)
+      : job_(std::move(job)), differs_(differs), trials_left_(most_trials) {}
+
+  ArrayJob result() {
+    bool smaller = true;
+    while (smaller && trials_left_ > 0) {
+      smaller = fewer_sweeps();
+      smaller |= fewer_cells();
+      smaller |= fewer_components();
+      smaller |= fewer_links();
+      smaller |= smaller_codes(&ArrayJob::weight);
+      smaller |= smaller_codes(&ArrayJob::bias);
+      smaller |= smaller_codes(&ArrayJob::start);
+      smaller |= plainer_array();
+    }
+    return std::move(job_);
+  }
+
+ private:
+  bool take(ArrayJob trial) {
+    if (trials_left_ == 0 || spec::validate(trial.array, trial.topology.most_taps())) return false;
+    trials_left_ -= 1;
+    if (!differs_(trial)) return false;
+    job_ = std::move(trial);
+    return true;
+  }
+
+  template <typename Change> bool try_change(Change change) {
+    ArrayJob trial = job_;
+    change(trial);
+    return take(std::move(trial));
+  }
+
+  bool fewer_sweeps() {
+    bool any = false;
+    if (job_.threshold > 0) any |= try_change([](ArrayJob& j) { j.threshold = 0; });
+    for (std::uint32_t n : {1u, job_.max_sweeps / 2})
+      if (n > 0 && n < job_.max_sweeps) any |= try_change([n](ArrayJob& j) { j.max_sweeps = n; });
+    while (job_.max_sweeps > 1 && try_change([](ArrayJob& j) { j.max_sweeps -= 1; })) any = true;
+    if (job_.max_sweeps == 0) any |= try_change([](ArrayJob& j) { j.max_sweeps = 1; });
+    return any;
+  }
+
+  // Halves first, then quarters, down to single ones.
+  bool fewer_cells() {
+    bool any = false;
+    for (std::uint32_t piece = static_cast<std::uint32_t>(job_.topology.cells()) / 2; piece > 0; piece /= 2)
+      for (std::uint32_t first = 0; first + piece <= job_.topology.cells() && job_.topology.cells() > piece;)
+        if (take(without_cells(job_, first, piece)))
+          any = true;
+        else
+          first += piece;
+    return any;
+  }
+
+  bool fewer_components() {
+    bool any = false;
+    for (int p = 0; p < job_.topology.neurons_per_cell && job_.topology.neurons_per_cell > 2;)
+      if (take(without_component(job_, p)))
+        any = true;
+      else
+        ++p;
+    return any;
+  }
+
+  bool fewer_links() {
+    bool any = false;
+    for (std::uint32_t a = 0; a < job_.topology.cells(); ++a)
+      for (std::size_t k = job_.topology.first_link[a]; k < job_.topology.first_link[a + 1];)
+        if (job_.topology.link_to[k] > a && take(without_link(job_, a, job_.topology.link_to[k])))
+          any = true;
+        else
+          ++k;
+    return any;
+  }
+
+  // To zero, many at once, then fewer; what stays is halved as long as it differs.
+  bool smaller_codes(std::vector<std::int32_t> ArrayJob::*codes) {
+    bool any = false;
+    const std::size_t count = (job_.*codes).size();
+    for (std::size_t piece = count; piece > 0; piece /= 2)
+      for (std::size_t first = 0; first < count; first += piece)
+        any |= to_zero(codes, first, std::min(piece, count - first));
+    for (std::size_t k = 0; k < count; ++k)
+      while ((job_.*codes)[k] / 2 != 0 && try_change([&](ArrayJob& j) { (j.*codes)[k] /= 2; })) any = true;
+    return any;
+  }
+
+  bool to_zero(std::vector<std::int32_t> ArrayJob::*codes, std::size_t first, std::size_t count) {
+    const auto begin = (job_.*codes).begin() + static_cast<std::ptrdiff_t>(first);
+    if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(count), [](std::int32_t c) { return c == 0; }))
+      return false;
+    return try_change(
+        [&](ArrayJob& j) { std::fill_n((j.*codes).begin() + static_cast<std::ptrdiff_t>(first), count, 0); });
+  }
+
+  template <typename T> bool plainer(T& (*member)(spec::ArraySpec&), T plain) {
+    if (member(job_.array) == plain) return false;
+    return try_change([&](ArrayJob& j) { member(j.array) = plain; });
+  }
+
+  bool plainer_array() {
+    using spec::ArraySpec;
+    bool any = plainer<int>([](ArraySpec& a) -> int& { return a.lanes; }, 1);
+    any |= plainer<int>([](ArraySpec& a) -> int& { return a.bus_bits; }, 32);
+    any |= plainer<int>([](ArraySpec& a) -> int& { return a.reciprocal_bits; }, 18);
+    any |= plainer<bool>([](ArraySpec& a) -> bool& { return a.exact_accumulator; }, true);
+    any |= plainer<spec::Normaliser>([](ArraySpec& a) -> spec::Normaliser& { return a.normaliser; },
+                                     spec::Normaliser::prescaled);
+    any |= plainer<spec::Schedule>([](ArraySpec& a) -> spec::Schedule& { return a.schedule; },
+                                   spec::Schedule::sequential);
+    for (spec::NumberFormat spec::Formats::*format :
+         {&spec::Formats::weight, &spec::Formats::bias, &spec::Formats::drive, &spec::Formats::state,
+          &spec::Formats::link})
+      any |= plainer_modes(format);
+    return any;
+  }
+
+  bool plainer_modes(spec::NumberFormat spec::Formats::*format) {
+    const spec::NumberFormat& f = job_.array.formats.*format;
+    bool any = false;
+    if (f.rounding != spec::Rounding::trn)
+      any |= try_change([&](ArrayJob& j) { (j.array.formats.*format).rounding = spec::Rounding::trn; });
+    if (f.overflow != spec::Overflow::sat)
+      any |= try_change([&](ArrayJob& j) { (j.array.formats.*format).overflow = spec::Overflow::sat; });
+    return any;
+  }
+
+  ArrayJob job_;
+  const Differs& differs_;
+  std::uint64_t trials_left_;
+};
+
+} // namespace
+
+ArrayJob without_cells(const ArrayJob& job, std::uint32_t first, std::uint32_t count) {
+  Kept kept;
+  kept.cell = [=](std::uint32_t c) { return c < first || c >= first + count; };
+  return rebuilt(job, kept);
+}
+
+ArrayJob without_component(const ArrayJob& job, int p) {
+  Kept kept;
+  kept.component = [p](int q) { return q != p; };
+  return rebuilt(job, kept);
+}
+
+ArrayJob without_link(const ArrayJob& job, std::uint32_t a, std::uint32_t b) {
+  Kept kept;
+  kept.link = [=](std::uint32_t c, std::uint32_t d) { return !((c == a && d == b) || (c == b && d == a)); };
+  return rebuilt(job, kept);
+}
+
+ArrayJob shrink(ArrayJob job, const Differs& differs, std::uint64_t most_trials) {
+  return Shrinker(std::move(job), differs, most_trials).result();
+}
+
+} // namespace hopmesh::cosim

@@ -1,0 +1,92 @@
+// Test vectors: jobs and their answers, phase by phase, as a text that cores which are not ours can read,
+// fill in and be judged by. docs/vectors.md describes the file.
+#pragma once
+
+#include "sim/cosim/divergence.h"
+#include "sim/record/output_file.h"
+
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace hopmesh::cosim {
+
+inline constexpr const char* vectors_header = "hopmesh-vectors 1";
+
+struct VectorCase {
+  std::string name; ///< one line
+  ArrayJob job;
+};
+
+/// Nothing has the file's name before commit().
+class VectorWriter {
+ public:
+  explicit VectorWriter(const std::filesystem::path& path);
+
+  void comment(const std::string& text);
+  /// `bus`: of an array built for the job, which gives the answers; none: a blank case, to be filled in.
+  void add(const VectorCase& a_case, const hm_bus* bus);
+  void commit() { file_.commit(); }
+
+ private:
+  void write_job(const VectorCase& a_case);
+  void write_answers(const ArrayJob& job, const hm_bus& bus);
+
+  record::OutputFile file_;
+};
+
+/// One line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
+struct AnswerLine {
+  int line = 0;
+  bool end = false;
+  std::uint64_t sweep = 0, phase = 0, cycle = 0;
+  Codes codes;
+  RunEnd run; ///< of `end`
+};
+
+/// Reads a file line by line, however long it is; throws scene::InputError with the line of a mistake.
+class VectorReader {
+ public:
+  explicit VectorReader(const std::string& path);
+
+  /// The next case, up to its answers (those of the case before are skipped); false at the end of the file.
+  bool next(VectorCase& a_case);
+  /// The next line of answers of this case; nothing may follow its `end`. Throws where a case was left blank.
+  AnswerLine answer();
+
+ private:
+  using Words = std::vector<std::string>;
+  bool read_line();
+  Words split() const;
+  Words expect(const std::string& key, const std::string& shape);
+  [[noreturn]] void fail(const std::string& found, const std::string& expected,
+                         const std::string& nearest = "") const;
+  std::int64_t number(const std::string& word, std::int64_t least, std::int64_t most,
+                      const std::string& what) const;
+  std::int32_t code(const std::string& word) const;
+  void skip_answers();
+  void read_array(spec::ArraySpec& array);
+  spec::NumberFormat read_format(const std::string& key);
+  std::optional<spec::NumberFormat> read_accumulator();
+  void read_links(spec::Topology& topology);
+  void check_links(const spec::Topology& topology, const std::vector<int>& lines) const;
+  void check_rules(const spec::ArraySpec& array, const spec::Topology& topology) const;
+  void read_neurons(ArrayJob& job);
+  void read_phases(const ArrayJob& job);
+
+  const std::string path_;
+  std::ifstream file_;
+  std::string text_; ///< of the line at hand
+  int line_ = 0;
+  std::vector<std::pair<std::string, int>> key_lines_;
+  spec::Phases phases_;
+  std::uint64_t next_sweep_ = 1, next_phase_ = 0;
+  bool in_answers_ = false;
+};
+
+/// The first wrong line of a case, in words: file and line, where it is in the run, found, expected, and the
+/// neuron's inputs. "" if every line is right. `lines` counts the right ones.
+std::string check_answers(const std::string& path, VectorReader& reader, const VectorCase& a_case,
+                          const hm_bus& bus, std::uint64_t& lines);
+
+} // namespace hopmesh::cosim

@@ -1,0 +1,262 @@
+// A core that is not ours: reads a blank file of test vectors, computes, and fills it in. Written from
+// docs/vectors.md, docs/datapath.md and docs/cycles.md alone; it shares no line with the rest of the tree,
+// and every number is an exact fraction until a register takes it.
+//   other_core BLANK FILLED [K]     K: the K-th output (from 1) comes out one too high, as from a faulty core
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Wide = __int128;
+
+struct Format {
+  int width = 0, fraction = 0;
+  std::string rounding = "SC_TRN", overflow = "SC_WRAP";
+};
+
+Format format_of(const std::string& text) { // fixed<W,I,Q,O>
+  std::string spaced = text.substr(text.find('<') + 1);
+  for (char& c : spaced)
+    if (c == ',' || c == '>') c = ' ';
+  std::istringstream in(spaced);
+  Format f;
+  int integer_bits = 0;
+  in >> f.width >> integer_bits >> f.rounding >> f.overflow;
+  f.fraction = f.width - integer_bits;
+  return f;
+}
+
+// a / b as a whole number, b > 0.
+Wide rounded(Wide a, Wide b, const std::string& mode) {
+  Wide q = a / b, r = a % b;
+  if (r < 0) q -= 1, r += b;
+  const bool more = 2 * r > b, tie = 2 * r == b;
+  bool up = more;
+  if (mode == "SC_TRN") up = false;
+  if (mode == "SC_TRN_ZERO") up = a < 0 && r != 0;
+  if (mode == "SC_RND") up = more || tie;
+  if (mode == "SC_RND_ZERO") up = more || (tie && a < 0);
+  if (mode == "SC_RND_INF") up = more || (tie && a > 0);
+  if (mode == "SC_RND_CONV") up = more || (tie && q % 2 != 0);
+  return up ? q + 1 : q;
+}
+
+Wide in_range(Wide x, const Format& f) {
+  const Wide top = (Wide{1} << (f.width - 1)) - 1, bottom = f.overflow == "SC_SAT_SYM" ? -top : -top - 1;
+  if (f.overflow == "SC_WRAP") {
+    const Wide turn = Wide{1} << f.width;
+    x = ((x % turn) + turn) % turn;
+    return x > top ? x - turn : x;
+  }
+  if (x >= bottom && x <= top) return x;
+  return f.overflow == "SC_SAT_ZERO" ? 0 : x > top ? top : bottom;
+}
+
+// a / b * 2^places as a code.
+Wide quantised(Wide a, Wide b, int places, const Format& f) {
+  if (places >= 0)
+    a *= Wide{1} << places;
+  else
+    b *= Wide{1} << -places;
+  return in_range(rounded(a, b, f.rounding), f);
+}
+
+Wide magnitude(Wide x) {
+  return x < 0 ? -x : x;
+}
+
+Wide low_bits(long word, int width) {
+  return in_range(word, Format{width, 0, "SC_TRN", "SC_WRAP"});
+}
+
+struct Core {
+  std::string schedule, normaliser;
+  int reciprocal_bits = 0, lanes = 1, per_cell = 3;
+  bool exact = false;
+  Format weight, bias, sum, drive, state, link;
+  long cells = 0, threshold = 0, max_sweeps = 1;
+  std::vector<std::vector<long>> links, phases;
+  std::vector<std::vector<Wide>> row; // of a neuron
+  std::vector<Wide> I, V, L;
+
+  std::size_t longest() const {
+    std::size_t most = 0;
+    for (const auto& r : row) most = std::max(most, r.size());
+    return most;
+  }
+
+  void choose_sum() {
+    if (!exact) return;
+    int growth = 0;
+    while ((std::size_t{1} << growth) < longest() + 1) ++growth;
+    sum.fraction = std::max(weight.fraction + link.fraction, bias.fraction);
+    sum.width =
+        sum.fraction + growth + std::max(weight.width - weight.fraction + 1, bias.width - bias.fraction);
+  }
+
+  void show(std::size_t i) { L[i] = quantised(V[i], 1, link.fraction - state.fraction, link); }
+
+  Wide accumulate(std::size_t i, const std::vector<Wide>& seen) const {
+    std::vector<Wide> input;
+    const std::size_t cell = i / static_cast<std::size_t>(per_cell);
+    std::vector<long> sources{static_cast<long>(cell)};
+    sources.insert(sources.end(), links[cell].begin(), links[cell].end());
+    for (long source : sources)
+      for (int q = 0; q < per_cell; ++q)
+        input.push_back(seen[static_cast<std::size_t>(source * per_cell + q)]);
+    const int product = weight.fraction + link.fraction, fine = std::max(product, sum.fraction);
+    Wide s = quantised(I[i], 1, sum.fraction - bias.fraction, sum);
+    for (std::size_t tap = 0; tap < input.size();) {
+      Wide total = s * (Wide{1} << (fine - sum.fraction));
+      for (int lane = 0; lane < lanes && tap < input.size(); ++lane, ++tap)
+        total += row[i][tap] * input[tap] * (Wide{1} << (fine - product));
+      s = quantised(total, 1, sum.fraction - fine, sum);
+    }
+    return s;
+  }
+
+  Wide driven(std::size_t i, Wide s) const {
+    const int unit = std::max(weight.fraction, bias.fraction);
+    Wide N = magnitude(I[i]) << (unit - bias.fraction), u = 0;
+    for (Wide w : row[i]) N += magnitude(w) << (unit - weight.fraction);
+    const int places = unit + drive.fraction - sum.fraction;
+    if (normaliser == "prescaled")
+      u = quantised(s, 1, drive.fraction - sum.fraction, drive);
+    else if (N != 0 && normaliser == "divider")
+      u = quantised(s, N, places, drive);
+    else if (N != 0) {
+      int bits = 0;
+      while (N >> bits != 0) ++bits;
+      const int exponent = bits + reciprocal_bits - 2;
+      u = quantised(s * ((Wide{1} << exponent) / N), 1, places - exponent, drive);
+    }
+    const Wide one = Wide{1} << drive.fraction;
+    return std::min(std::max(u, -one), one);
+  }
+
+  /// Returns |Delta V|.
+  Wide fire(std::size_t i, const std::vector<Wide>& seen) {
+    const Wide one = Wide{1} << state.fraction, u = driven(i, accumulate(i, seen));
+    const Wide change =
+        rounded((u >= 0 ? one - V[i] : one + V[i]) * u, Wide{1} << drive.fraction, state.rounding);
+    V[i] += change;
+    show(i);
+    return magnitude(change);
+  }
+
+  // ---- cycles ----
+
+  long beats(std::size_t taps) const { return (static_cast<long>(taps) + lanes - 1) / lanes; }
+  long prepare() const {
+    if (normaliser == "prescaled") return 0;
+    return beats(longest()) + (normaliser == "reciprocal" ? reciprocal_bits + 1 : 0);
+  }
+  long length(const std::vector<long>& phase) const {
+    std::size_t taps = 0;
+    for (long i : phase) taps = std::max(taps, row[static_cast<std::size_t>(i)].size());
+    return beats(taps) +
+           (normaliser == "prescaled"    ? 1
+            : normaliser == "reciprocal" ? 2
+                                         : drive.fraction + 2) +
+           2;
+  }
+};
+
+long faulty_output = 0, outputs = 0;
+
+void answer(Core& core, std::ostream& out) {
+  long cycle = 1 + core.prepare(), sweep = 0;
+  Wide largest = 0;
+  do {
+    sweep += 1, largest = 0;
+    for (std::size_t k = 0; k < core.phases.size(); ++k) {
+      const std::vector<Wide> seen = core.L; // by all that fire together
+      cycle += core.length(core.phases[k]);
+      out << "fire " << sweep << ' ' << k << ' ' << cycle - 1;
+      for (long i : core.phases[k]) {
+        largest = std::max(largest, core.fire(static_cast<std::size_t>(i), seen));
+        const bool fault = ++outputs == faulty_output;
+        out << ' ' << static_cast<long>(core.V[static_cast<std::size_t>(i)]) + fault;
+      }
+      out << '\n';
+    }
+    cycle += 1;
+  } while (largest > core.threshold && sweep < core.max_sweeps);
+  out << "end " << sweep << ' ' << (largest <= core.threshold) << ' ' << static_cast<long>(largest) << ' '
+      << cycle << '\n';
+}
+
+void read_neuron(Core& core, std::istream& words) {
+  long number = 0, start = 0, bias = 0;
+  words >> number >> start >> bias;
+  const Wide one = Wide{1} << core.state.fraction;
+  core.V.push_back(std::min(std::max(low_bits(start, core.state.width), -one), one));
+  core.I.push_back(low_bits(bias, core.bias.width));
+  core.row.emplace_back();
+  for (long w = 0; words >> w;) core.row.back().push_back(low_bits(w, core.weight.width));
+  core.L.push_back(0);
+  core.show(core.L.size() - 1);
+}
+
+std::vector<long> list(std::istream& words) {
+  std::vector<long> all;
+  long number = 0;
+  words >> number; // its own
+  while (words >> number) all.push_back(number);
+  return all;
+}
+
+void take_line(Core& core, const std::string& line) {
+  std::istringstream words(line);
+  std::string key, word;
+  words >> key;
+  if (key == "case") core = Core();
+  if (key == "schedule") words >> core.schedule;
+  if (key == "normaliser") words >> core.normaliser;
+  if (key == "reciprocal_bits") words >> core.reciprocal_bits;
+  if (key == "lanes") words >> core.lanes;
+  if (key == "cells") words >> core.cells;
+  if (key == "neurons_per_cell") words >> core.per_cell;
+  if (key == "threshold") words >> core.threshold;
+  if (key == "max_sweeps") words >> core.max_sweeps;
+  if (key == "links") core.links.push_back(list(words));
+  if (key == "phase") core.phases.push_back(list(words));
+  if (key == "neuron") read_neuron(core, words);
+  for (auto [name, format] : {std::pair<const char*, Format*>{"weight", &core.weight},
+                              {"bias", &core.bias},
+                              {"accumulator", &core.sum},
+                              {"drive", &core.drive},
+                              {"state", &core.state},
+                              {"link", &core.link}})
+    if (key == name && words >> word) {
+      if (word == "exact")
+        core.exact = true;
+      else
+        *format = format_of(word);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return std::cerr << "usage: other_core BLANK FILLED [K]\n", 2;
+  if (argc > 3) faulty_output = std::atol(argv[3]);
+  std::ifstream in(argv[1]);
+  std::ofstream out(argv[2]);
+  Core core;
+  for (std::string line; std::getline(in, line);) {
+    if (line == "?") {
+      core.choose_sum();
+      answer(core, out);
+      continue;
+    }
+    out << line << '\n';
+    take_line(core, line);
+  }
+  return out ? 0 : 1;
+}
