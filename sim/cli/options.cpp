@@ -4,6 +4,7 @@
 #include "sim/cli/engine_port.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/systemc_port.h"
+#include "sim/engine/choose.h"
 
 #include <algorithm>
 #include <charconv>
@@ -62,7 +63,9 @@ namespace {
 
 std::unique_ptr<study::ArrayPort> make_engine(const spec::ArraySpec& array, const spec::Topology& topology,
                                               const engine::Options& options) {
-  auto port = std::make_unique<EnginePort>(array, topology, options, stop_requested);
+  engine::Options useful = options;
+  useful.threads = engine::useful_threads(topology, options.threads);
+  auto port = std::make_unique<EnginePort>(array, topology, useful, stop_requested);
   const std::string why = port->engine().why_no_kernel();
   if (!why.empty())
     fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);

@@ -16,7 +16,7 @@ struct RunOptions {
   CommonOptions common;
   std::string level = "engine", out, wave_window, wave_cells;
   WaveRequest wave;
-  std::int64_t steps = 0, threads = 0;
+  std::int64_t steps = 0, threads = 1;
   bool check = false, no_check = false;
 };
 
@@ -96,8 +96,10 @@ void add_run(CLI::App& program, int& exit_code) {
   auto* check = verb->add_flag("--check", o->check,
                                "ask the double reference beside every step (as all levels but engine do)");
   verb->add_flag("--no-check", o->no_check, "do not ask it")->excludes(check);
-  verb->add_option("-j", o->threads, "threads of the engine; changes no result (0: as many as help)")
-      ->check(CLI::Range(0, 256));
+  verb->add_option("-j", o->threads,
+                   "at most so many threads of the engine, fewer on small meshes; changes no result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");
   verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
   verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");

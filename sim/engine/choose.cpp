@@ -4,7 +4,6 @@
 #include "sim/engine/fast_plan.h"
 
 #include <stdexcept>
-#include <thread>
 
 namespace hopmesh::engine {
 
@@ -26,11 +25,9 @@ std::unique_ptr<Core> make_core(const Plan& plan, const Layout& layout, const st
 }
 
 // A sweep of fewer cells is over before a second thread has come to the barrier.
-std::size_t threads_for(const spec::Topology& topology, std::size_t asked) {
+std::size_t useful_threads(const spec::Topology& topology, std::size_t at_most) {
   constexpr std::size_t cells_a_thread = 2500;
-  if (asked > 0) return asked;
-  const std::size_t useful = topology.cells() / cells_a_thread, cores = std::thread::hardware_concurrency();
-  return std::max<std::size_t>(1, std::min(useful, cores));
+  return std::max<std::size_t>(1, std::min(topology.cells() / cells_a_thread, at_most));
 }
 
 // Sweeps follow each other where the network is larger than a cache can be hoped to hold and links are short:

@@ -12,7 +12,7 @@ Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, con
       layout_(topology, phases_of_sweep_, array.schedule,
               chunk_cells(topology, array.schedule, options.followed)),
       core_(make_core(plan_, layout_, options.kernel)),
-      sweeper_(*core_, layout_, array.schedule, threads_for(topology, options.threads),
+      sweeper_(*core_, layout_, array.schedule, std::max<std::size_t>(options.threads, 1),
                sweeps_to_follow(topology, options.followed)) {}
 
 std::string Engine::why_no_kernel() const {

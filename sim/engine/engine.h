@@ -9,7 +9,7 @@
 namespace hopmesh::engine {
 
 struct Options {
-  std::size_t threads = 0;     ///< 0: as many as help on this mesh and machine; never changes a bit
+  std::size_t threads = 1;     ///< never changes a bit; useful_threads() knows how many help
   std::string kernel = "auto"; ///< or a name of kernel_names()
   std::size_t followed = 0;    ///< sweeps that follow each other through the mesh; 0: as helps; 1: plain
 };

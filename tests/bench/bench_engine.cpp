@@ -130,12 +130,6 @@ void register_all() {
             relax(s, flag(rows, ""), {threads, "auto", 1});
           },
           true);
-  add(
-      "threads 400/as chosen",
-      [](benchmark::State& s) {
-        relax(s, flag(20, ""), {0, "auto", 1});
-      },
-      true);
   for (std::size_t sweeps : {2, 4, 8, 16})
     add("followed 1000000/" + std::to_string(sweeps), [=](benchmark::State& s) {
       relax(s, flag(1000, ""), {1, "auto", sweeps});

@@ -85,14 +85,17 @@ void add(const std::string& name, const Words& options, int turns) {
 void add_square(int side) {
   const std::string n = std::to_string(side);
   add("memory/" + std::to_string(side * side),
-      {"--steps", "2", "--set", "mesh.grid.rows=" + n, "--set", "mesh.grid.columns=" + n}, 1);
+      {"--level", "systemc", "--steps", "2", "--set", "mesh.grid.rows=" + n, "--set",
+       "mesh.grid.columns=" + n},
+      1);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  add("run flag-400/checked", {}, 3);
-  add("run flag-400/no check", {"--no-check"}, 3);
+  add("run flag-400/checked", {"--level", "systemc"}, 3);
+  add("run flag-400/no check", {"--level", "systemc", "--no-check"}, 3);
+  add("run flag-400/engine", {}, 9);
   for (int side : {10, 20, 40, 80}) add_square(side);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -46,8 +46,6 @@ void print_ratios(const Results& r) {
         updates(r, "followed 1000000/8") / updates(r, "plain/1000000"), 2, 3.5);
   ratio("two threads / one at 10^4 nodes", updates(r, "threads 10000/2") / updates(r, "threads 10000/1"), 1.7,
         1.95);
-  ratio("as many threads as chosen / one at 400 nodes",
-        updates(r, "threads 400/as chosen") / updates(r, "threads 400/1"), 0.95, 1);
   for (const char* array : {"kernel/generic", "array/32 bits", "array/rounding accumulator"})
     ratio(fmt::format("generic path / fast kernel, {}", array), updates(r, array) / updates(r, "plain/400"),
           0.05, 0.1);

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string long_run = "run flag-400 --no-check --out r"; // ten seconds and more
+const std::string long_run = "run flag-400 --level systemc --no-check --out r"; // ten seconds and more
 
 class CliEnding : public Cli {
  protected:

@@ -113,7 +113,9 @@ TEST(EngineChoices, AnArrayWithoutAKernelIsToldWhy) {
 TEST(EngineChoices, ThreadsAreWhatWasAskedAndNeverNone) {
   for (std::size_t threads : {1u, 2u, 40u})
     EXPECT_EQ(Engine(spec::default_array(), mesh, {threads, "auto", 1}).threads(), threads);
-  EXPECT_GE(Engine(spec::default_array(), mesh, {0, "auto", 0}).threads(), 1u);
+  EXPECT_EQ(engine::useful_threads(mesh, 40), 1u); // small: one is best
+  EXPECT_EQ(engine::useful_threads(grid_topology(100, 100, true), 2), 2u);
+  EXPECT_EQ(engine::useful_threads(grid_topology(100, 100, true), 1), 1u);
 }
 
 /// More threads than there are blocks of cells, and than this machine has processors.
