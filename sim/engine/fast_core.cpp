@@ -275,7 +275,8 @@ void FastCore::align_neighbours() {
   }
 }
 
-// A lane without this neighbour has weight 0 and may read anything that is there.
+// A lane without this neighbour has weight 0 and may read anything that is there, even a word that another
+// thread is writing.
 void FastCore::add_source(std::size_t block, std::size_t column) {
   std::uint32_t slots[L];
   bool real[L] = {};
@@ -400,6 +401,7 @@ std::string why_no_kernel(const Plan& plan) {
   if (plan.formats.link.width > 16) return "links of more than 16 bits";
   if (!plan.exact) return "an accumulator that rounds";
   if (plan.product_up > 0) return "a bias finer than a product";
+  if (plan.most_taps > UINT16_MAX) return "rows of more than 65535 inputs"; // 31 bits hold their sum of |w|
   return why_no_normaliser(plan);
 }
 
