@@ -188,7 +188,8 @@ void FastCore::align_neighbours() {
   }
 }
 
-// A lane without this neighbour has weight 0 and may read anything that is there.
+// A lane without this neighbour has weight 0 and may read anything that is there, even a word that another
+// thread is writing.
 void FastCore::add_source(std::size_t block, std::size_t column) {
   std::uint32_t slots[L];
   bool real[L] = {};

@@ -54,6 +54,7 @@ std::string why_no_kernel(const Plan& plan) {
   if (plan.formats.link.width > 16) return "links of more than 16 bits";
   if (!plan.exact) return "an accumulator that rounds";
   if (plan.product_up > 0) return "a bias finer than a product";
+  if (plan.most_taps > UINT16_MAX) return "rows of more than 65535 inputs"; // 31 bits hold their sum of |w|
   return why_no_normaliser(plan);
 }
 

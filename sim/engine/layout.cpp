@@ -82,10 +82,10 @@ void Layout::find_sources(const spec::Topology& t) {
   for (std::size_t slot = 0; slot < cell_of_slot.size(); ++slot) {
     const std::uint32_t cell = cell_of_slot[slot];
     const std::size_t block = slot / block_lanes;
-    std::uint32_t* at = &source[first_source[block] + slot % block_lanes];
+    std::size_t at = first_source[block] + slot % block_lanes;
     for (std::size_t k = 0; k < neighbours[block]; ++k, at += block_lanes)
-      *at = k < degree[slot] ? slot_of_cell[t.link_to[t.first_link[cell] + k]]
-                             : static_cast<std::uint32_t>(slot);
+      source[at] = k < degree[slot] ? slot_of_cell[t.link_to[t.first_link[cell] + k]]
+                                    : static_cast<std::uint32_t>(slot);
   }
 }
 

@@ -108,6 +108,27 @@ TEST(KernelStars, AndEmptyRowsAndLonelyCells) {
   }
 }
 
+/// 65,535 inputs of weight -1: the largest N that a kernel adds up.
+TEST(KernelStars, AsLargeAsTheirSumsAllow) {
+  constexpr std::uint32_t arms = 21844;
+  Edges edges;
+  for (std::uint32_t k = 1; k <= arms + 1; ++k) edges.push_back({0, k});
+  spec::ArraySpec array;
+  array.formats.bias = {16, 1, spec::Rounding::rnd, spec::Overflow::sat};
+  EXPECT_EQ(why_not_fast(array, topology_of(arms + 2, 3, edges)), "rows of more than 65535 inputs");
+  edges.pop_back();
+  const spec::Topology topology = topology_of(arms + 1, 3, edges);
+  ASSERT_EQ(topology.most_taps(), 65535u);
+  ArrayJob job{array, topology, Codes(topology.weight_words(), -32768), Codes(topology.neurons(), 5),
+               Codes(topology.neurons(), 16384)};
+  std::fill_n(job.start.begin() + 30000, 30000, -16000);
+  const ArrayResult expected = run_slow_array(job);
+  for (const std::string& kernel : {std::string("portable"), kernels_here().back()}) {
+    Engine e(array, topology, {1, kernel, 1});
+    expect_run(e, job, expected);
+  }
+}
+
 /// A graph without any order: neighbours come from everywhere.
 spec::Topology tangle(Dice& dice, std::size_t cells, int per_cell) {
   Edges edges;
