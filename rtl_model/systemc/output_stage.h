@@ -22,7 +22,9 @@ class OutputStage : public sc_core::sc_module {
 
   std::int64_t state_raw() const { return state_; }
   std::int64_t drive_raw() const { return drive_; }
-  std::int32_t link_raw() const; ///< Q[V -> link]
+  std::int64_t change_raw() const { return delta_; }
+  std::int64_t reciprocal_raw() const { return reciprocal_; } ///< of the last N that was not zero
+  std::int32_t link_raw() const;                              ///< Q[V -> link]
   /// A value from the host: cut to the format's width, then held within [-1, 1].
   void load(std::int32_t raw);
 

@@ -3,6 +3,7 @@
 #include "sim/engine/choose.h"
 #include "sim/engine/fast_plan.h"
 #include "sim/engine/rounding.h"
+#include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {
 
@@ -24,41 +25,22 @@ std::pair<std::size_t, std::size_t> Engine::place(std::size_t neuron) const {
   return {layout_.slot_of_cell[neuron / per_cell], neuron % per_cell};
 }
 
-// Calls visit(slot, p, first tap, words) for each piece of a row in [first, first + count).
-template <typename Visit> void Engine::walk_rows(std::size_t first, std::size_t count, Visit visit) const {
-  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
-  std::size_t cell = 0, high = topology_.cells(); // the last cell whose rows begin at or before `first`
-  while (high - cell > 1) {
-    const std::size_t middle = (cell + high) / 2;
-    (topology_.row_offset(middle, 0) <= first ? cell : high) = middle;
-  }
-  const std::size_t within = first - topology_.row_offset(cell, 0);
-  std::size_t taps = topology_.taps(cell), p = within / taps, tap = within % taps;
-  while (count > 0) {
-    const std::size_t piece = std::min(count, taps - tap);
-    visit(layout_.slot_of_cell[cell], p, tap, piece);
-    count -= piece;
-    tap = 0;
-    if (++p < per_cell || count == 0) continue;
-    p = 0;
-    taps = topology_.taps(++cell);
-  }
-}
-
 void Engine::write_weights(std::size_t first, const std::uint32_t* words, std::size_t count) {
   std::vector<std::int32_t> codes(plan_.most_taps);
-  walk_rows(first, count, [&](std::size_t slot, std::size_t p, std::size_t tap, std::size_t piece) {
-    for (std::size_t k = 0; k < piece; ++k) codes[k] = kept_bits(words[k], plan_.formats.weight);
-    core_->put_weights(slot, p, tap, codes.data(), piece);
-    words += piece;
-  });
+  walk_rows(topology_, first, count,
+            [&](std::size_t cell, std::size_t p, std::size_t tap, std::size_t piece) {
+              for (std::size_t k = 0; k < piece; ++k) codes[k] = kept_bits(words[k], plan_.formats.weight);
+              core_->put_weights(layout_.slot_of_cell[cell], p, tap, codes.data(), piece);
+              words += piece;
+            });
 }
 
 void Engine::read_weights(std::size_t first, std::uint32_t* words, std::size_t count) const {
-  walk_rows(first, count, [&](std::size_t slot, std::size_t p, std::size_t tap, std::size_t piece) {
-    for (std::size_t k = 0; k < piece; ++k)
-      *words++ = static_cast<std::uint32_t>(core_->weight(slot, p, tap + k));
-  });
+  walk_rows(topology_, first, count,
+            [&](std::size_t cell, std::size_t p, std::size_t tap, std::size_t piece) {
+              for (std::size_t k = 0; k < piece; ++k)
+                *words++ = static_cast<std::uint32_t>(core_->weight(layout_.slot_of_cell[cell], p, tap + k));
+            });
 }
 
 void Engine::write_biases(std::size_t first, const std::uint32_t* words, std::size_t count) {

@@ -61,7 +61,6 @@ class Engine {
   std::size_t bytes_per_sweep() const { return core_->bytes_per_sweep(); }
 
  private:
-  template <typename Visit> void walk_rows(std::size_t first, std::size_t count, Visit visit) const;
   std::pair<std::size_t, std::size_t> place(std::size_t neuron) const;
 
   const spec::ArraySpec array_;

@@ -2,7 +2,7 @@
 // can hold, 128 where a format asks for them.
 #include "sim/engine/aligned.h"
 #include "sim/engine/core.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/drive_path.h"
 #include "sim/engine/lanes.h"
 #include "sim/engine/rounding.h"
 
@@ -18,7 +18,7 @@ static_assert(L == lane_count);
 class GenericCore : public Core {
  public:
   GenericCore(const Plan& plan, const Layout& layout)
-      : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
+      : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), path_(plan),
         to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
         to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)) {
     const std::size_t neurons = layout.slots() * per_cell_;
@@ -32,7 +32,8 @@ class GenericCore : public Core {
     norm_.assign(neurons, 0);
     reciprocal_ = norm_;
     places_.assign(neurons, 0);
-    choose_widths();
+    narrow_sums_ = !plan.exact && plan.sum_up <= 52;
+    if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
@@ -87,8 +88,6 @@ class GenericCore : public Core {
     return first_weight_[b] + (p * taps_of(layout_.neighbours[b]) + tap) * L + slot % L;
   }
 
-  void choose_widths();
-  bool divides_narrowly() const;
   void prepare_rows(std::size_t b, std::size_t p);
   void invert(std::size_t at, std::uint64_t norm);
   void gather(std::size_t b, std::int32_t* in) const;
@@ -97,55 +96,22 @@ class GenericCore : public Core {
                    std::int64_t* sum) const;
   void sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                      const std::int32_t* bias, std::int64_t* sum) const;
-  void drives(std::size_t at, const std::int64_t* sum, std::int64_t* u) const;
-  std::int64_t wide_drive(std::size_t at, std::int64_t sum) const;
-  Int128 quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const;
 
   const Plan& plan_;
   const Layout& layout_;
   const std::size_t per_cell_;
+  const DrivePath path_;
   const LaneRounding to_state_, to_link_;
-  LaneRounding to_sum_, to_drive_;
-  bool narrow_sums_ = false;                 ///< a rounding accumulator stays within 63 bits
-  bool narrow_drives_ = false;               ///< so does s on its way to u, and all reciprocals share a point
-  int norm_bits_ = 0;                        ///< of the largest N that these formats can make
-  std::vector<std::size_t> first_weight_;    ///< of a block
-  AlignedVector<std::int32_t> weight_;       ///< [block][p][tap][lane]
-  AlignedVector<std::int32_t> bias_, state_; ///< [block][p][lane]
+  LaneRounding to_sum_;
+  bool narrow_sums_ = false;                      ///< a rounding accumulator stays within 63 bits
+  std::vector<std::size_t> first_weight_;         ///< of a block
+  AlignedVector<std::int32_t> weight_;            ///< [block][p][tap][lane]
+  AlignedVector<std::int32_t> bias_, state_;      ///< [block][p][lane]
   AlignedVector<std::int32_t> link_, next_link_;  ///< [p][slot]
   AlignedVector<std::int64_t> norm_, reciprocal_; ///< [block][p][lane]
   std::vector<int> places_;                       ///< that s times the reciprocal is moved down
   std::array<AlignedVector<std::int32_t>, 2> kept_;
 };
-
-// What of the general rule 64 bits can hold, for every code that the memories can hold.
-void GenericCore::choose_widths() {
-  const spec::Formats& f = plan_.formats;
-  norm_bits_ = norm_bits(plan_);
-  narrow_sums_ = !plan_.exact && plan_.sum_up <= 52;
-  if (narrow_sums_) to_sum_ = lane_rounding(plan_.sum_up, f.accumulator.rounding);
-  if (divides_narrowly()) narrow_drives_ = true;
-  if (plan_.normaliser == spec::Normaliser::prescaled && plan_.scaled_down >= 0) {
-    narrow_drives_ = true;
-    to_drive_ = lane_rounding(plan_.scaled_down, f.drive.rounding);
-  }
-  const int places = multiplier_places(plan_);
-  const int multiplier =
-      norm_bits_ + plan_.reciprocal_bits; // bits of r, moved to the point of the widest N's
-  const int above = std::max(f.drive.fraction_bits() - plan_.ratio_up, 0); // from N's last place to that of s
-  const int product = plan_.exact ? above + multiplier : f.accumulator.width + multiplier; // exact: |s| <= N
-  if (plan_.normaliser == spec::Normaliser::reciprocal && places >= 0 && places <= 60 && multiplier <= 61 &&
-      product <= 61) {
-    narrow_drives_ = true;
-    to_drive_ = lane_rounding(places, f.drive.rounding);
-  }
-}
-
-// With an exact accumulator |s| <= N, so a quotient has no more places than the drive.
-bool GenericCore::divides_narrowly() const {
-  return plan_.normaliser == spec::Normaliser::divider && plan_.exact && plan_.ratio_up >= 0 &&
-         norm_bits_ + plan_.formats.drive.fraction_bits() <= 60;
-}
 
 void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
   const std::size_t taps = taps_of(layout_.neighbours[b]);
@@ -161,13 +127,10 @@ void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
 }
 
 void GenericCore::invert(std::size_t at, std::uint64_t norm) {
+  const DrivePath::Inverse inverse = path_.invert(norm);
   norm_[at] = static_cast<std::int64_t>(norm);
-  reciprocal_[at] = 0;
-  if (norm == 0 || plan_.normaliser != spec::Normaliser::reciprocal) return;
-  const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
-  const auto r = static_cast<std::int64_t>((Int128{1} << exponent) / static_cast<Int128>(norm));
-  reciprocal_[at] = narrow_drives_ ? r << (norm_bits_ - bit_length(norm)) : r;
-  places_[at] = exponent - plan_.ratio_up;
+  reciprocal_[at] = inverse.multiplier;
+  places_[at] = inverse.places;
 }
 
 // The inputs of the block's rows, tap by tap.
@@ -190,7 +153,7 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swep
     sum_exactly(w, in, taps, &bias_[first], sum);
   else
     sum_with_loss(w, in, taps, &bias_[first], sum);
-  drives(first, sum, u);
+  path_.drives({&norm_[first], &reciprocal_[first], &places_[first]}, sum, u);
   Extremes& x = swept.extremes;
   LaneSwings sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
   swing_lanes(sum, sums);
@@ -228,36 +191,6 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
       sum[l] = limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
     }
   }
-}
-
-void GenericCore::drives(std::size_t first, const std::int64_t* sum, std::int64_t* u) const {
-  std::copy_n(sum, L, u);
-  if (!narrow_drives_) {
-    for (std::size_t l = 0; l < L; ++l) u[l] = wide_drive(first + l, sum[l]);
-  } else if (plan_.normaliser == spec::Normaliser::divider) {
-    divide_lanes(u, plan_.ratio_up, &norm_[first], plan_.formats.drive.rounding);
-  } else {
-    if (plan_.normaliser == spec::Normaliser::reciprocal) multiply_lanes(u, &reciprocal_[first]);
-    round_lanes(u, to_drive_);
-    limit_lanes(u, plan_.formats.drive);
-  }
-  clamp_lanes(u, plan_.one_drive);
-}
-
-std::int64_t GenericCore::wide_drive(std::size_t at, std::int64_t sum) const {
-  const spec::NumberFormat& f = plan_.formats.drive;
-  if (plan_.normaliser == spec::Normaliser::prescaled)
-    return limit_to_format(round_shift<Int128>(sum, plan_.scaled_down, f.rounding), f);
-  if (norm_[at] == 0) return 0;
-  if (plan_.normaliser == spec::Normaliser::divider)
-    return limit_to_format(quotient(sum, norm_[at], f.rounding), f);
-  return limit_to_format(round_shift<Int128>(Int128{sum} * reciprocal_[at], places_[at], f.rounding), f);
-}
-
-Int128 GenericCore::quotient(std::int64_t sum, std::int64_t norm, spec::Rounding mode) const {
-  const int up = plan_.ratio_up;
-  if (up < 0) return round_quotient<Int128>(sum, Int128{norm} << -up, mode);
-  return round_quotient<Int128>(shifted_up<Int128>(sum, up), norm, mode);
 }
 
 } // namespace

@@ -1,11 +1,6 @@
 #include "sim/engine/lanes.h"
 
-// The loader picks the widest version that the processor can run.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define HM_WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define HM_WIDEST
-#endif
+#include "sim/engine/widest.h"
 
 namespace hopmesh::engine {
 

@@ -1,0 +1,122 @@
+#include "sim/engine/clocked.h"
+
+#include "sim/engine/rounding.h"
+#include "sim/engine/row_walk.h"
+
+namespace hopmesh::engine {
+
+ClockedEngine::ClockedEngine(const spec::ArraySpec& array, const spec::Topology& topology)
+    : topology_(topology), phases_(spec::phases_of(topology, array.schedule)),
+      cycles_(spec::cycle_model(array, topology, phases_)), plan_(array, topology),
+      layout_(array, topology, phases_), normalise_cycles_(spec::normalise_cycles(array)),
+      beats_(plan_, layout_), row_(topology.neurons()) {
+  const auto per_cell = static_cast<std::size_t>(topology.neurons_per_cell);
+  for (std::size_t k = 0; k < row_.size(); ++k)
+    row_[k] = static_cast<std::uint32_t>(layout_.row(k / per_cell, k % per_cell));
+}
+
+void ClockedEngine::write_weights(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  walk_rows(
+      topology_, first, count, [&](std::size_t cell, std::size_t p, std::size_t tap, std::size_t piece) {
+        for (std::size_t k = 0; k < piece; ++k)
+          beats_.at.weight[layout_.weight(cell, p, tap + k)] = kept_bits(*words++, plan_.formats.weight);
+      });
+}
+
+void ClockedEngine::write_biases(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    beats_.at.bias[row_[first + k]] = kept_bits(words[k], plan_.formats.bias);
+}
+
+void ClockedEngine::write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  const auto one = static_cast<std::int32_t>(plan_.one_state);
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  for (std::size_t k = first; k < first + count; ++k) {
+    const std::int32_t code = std::min(std::max(kept_bits(*words++, plan_.formats.state), -one), one);
+    beats_.load(k / per_cell, k % per_cell, code);
+  }
+}
+
+void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
+  threshold_ = threshold;
+  max_sweeps_ = std::max(max_sweeps, 1u);
+  result_ = {};
+  done_ = false;
+  segment_ = start_taken;
+  beat_ = 0;
+}
+
+void ClockedEngine::step(std::uint64_t clocks) {
+  while (clocks > 0 && segment_ != idle) {
+    const std::uint64_t left = length() - beat_, some = std::min(clocks, left);
+    do_beats(beat_, beat_ + some);
+    clocks -= some;
+    result_.cycles += some;
+    beat_ += some;
+    if (some == left) leave_segment();
+  }
+}
+
+std::uint64_t ClockedEngine::length() const {
+  if (segment_ >= first_phase) return cycles_.phase[static_cast<std::size_t>(segment_ - first_phase)];
+  return segment_ == prepare ? cycles_.prepare : 1;
+}
+
+void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {
+  if (segment_ >= first_phase)
+    do_phase(static_cast<std::size_t>(segment_ - first_phase), first, last);
+  else if (segment_ == prepare)
+    do_prepare(first, last);
+}
+
+void ClockedEngine::do_prepare(std::uint64_t first, std::uint64_t last) {
+  for (const ClockedBank& bank : layout_.banks) {
+    if (first == 0) beats_.begin_norms(bank);
+    beats_.add_norms(bank, first, last);
+    if (last == cycles_.prepare) beats_.invert(bank);
+  }
+}
+
+// Accumulate, normalise, R u, publish: each row when its own beats are over, but all publish in the last one.
+void ClockedEngine::do_phase(std::size_t phase, std::uint64_t first, std::uint64_t last) {
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  const bool together = plan_.schedule == spec::Schedule::synchronous;
+  const ClockedBank& bank = layout_.banks[phase / per_cell];
+  const std::size_t first_p = together ? 0 : phase % per_cell, last_p = together ? per_cell : first_p + 1;
+  if (first == 0) {
+    beats_.take_links(bank, first_p == 0);
+    if (phase == 0) largest_ = 0;
+  }
+  const auto from = static_cast<std::int64_t>(first - normalise_cycles_),
+             to = from + std::int64_t(last - first);
+  const auto normalised = bank.with_beats(from + 1, to), pulled = bank.with_beats(from, to - 1);
+  for (std::size_t p = first_p; p < last_p; ++p) {
+    const std::size_t row = bank.first_row + p * bank.width;
+    if (first == 0) beats_.begin_sums(bank, p);
+    beats_.add_beats(bank, p, first, last);
+    beats_.normalise(row + normalised.first, row + normalised.second);
+    beats_.pull_to_bound(row + pulled.first, row + pulled.second);
+    if (last == cycles_.phase[phase]) largest_ = std::max(largest_, beats_.publish(bank, p));
+  }
+}
+
+void ClockedEngine::leave_segment() {
+  if (segment_ == check) {
+    result_.sweeps += 1;
+    result_.largest_change = static_cast<std::uint32_t>(largest_);
+    result_.converged = largest_ <= threshold_;
+  }
+  segment_ = next_segment();
+  done_ = segment_ == idle;
+  beat_ = 0;
+}
+
+int ClockedEngine::next_segment() const {
+  const int phases_end = first_phase + static_cast<int>(cycles_.phase.size());
+  if (segment_ == start_taken && cycles_.prepare > 0) return prepare;
+  if (segment_ == start_taken || segment_ == prepare) return first_phase < phases_end ? +first_phase : +check;
+  if (segment_ == check) return result_.converged || result_.sweeps == max_sweeps_ ? +idle : +first_phase;
+  return segment_ + 1 < phases_end ? segment_ + 1 : +check;
+}
+
+} // namespace hopmesh::engine

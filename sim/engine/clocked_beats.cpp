@@ -1,0 +1,134 @@
+#include "sim/engine/clocked_beats.h"
+
+#include "sim/engine/clocked_loops.h"
+#include "sim/engine/rounding.h"
+
+#include <cstdlib>
+
+namespace hopmesh::engine {
+
+ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
+    : plan_(plan), layout_(layout), path_(plan),
+      to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
+      to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)),
+      narrow_sums_(!plan.exact && plan.sum_up <= 52),
+      per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
+      lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.widest, 0) {
+  if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
+  at.weight.assign(layout.weights, 0);
+  at.bias.assign(layout.rows, 0);
+  at.state = at.link = at.bias;
+  at.norm.assign(layout.rows, 0);
+  at.reciprocal = at.sum = at.drive = at.change = multiplier_ = at.norm;
+  places_.assign(layout.rows, 0);
+  outputs_.assign(4 * layout.slots, 0);
+}
+
+void ClockedBeats::load(std::size_t cell, std::size_t p, std::int32_t state) {
+  const std::size_t row = layout_.row(cell, p);
+  at.state[row] = state;
+  at.link[row] = static_cast<std::int32_t>(
+      round_shift<std::int64_t>(state, plan_.link_down, plan_.formats.link.rounding));
+  outputs_[4 * layout_.slot(cell) + p] = at.link[row];
+}
+
+void ClockedBeats::begin_norms(const ClockedBank& bank) {
+  for (std::size_t r = bank.first_row; r < bank.first_row + per_cell_ * bank.width; ++r)
+    at.norm[r] = std::abs(std::int64_t{at.bias[r]}) << plan_.bias_up;
+}
+
+void ClockedBeats::add_norms(const ClockedBank& bank, std::uint64_t first, std::uint64_t last) {
+  if (first >= bank.beats()) return;
+  const std::size_t tap = first * lanes_, end = std::min<std::size_t>(last * lanes_, bank.taps);
+  for (std::size_t p = 0; p < per_cell_; ++p)
+    add_magnitudes(&at.weight[bank.first_weight + (p * bank.taps + tap) * bank.width], bank.width, end - tap,
+                   plan_.weight_up, bank.reach[first], &at.norm[bank.first_row + p * bank.width]);
+}
+
+void ClockedBeats::invert(const ClockedBank& bank) {
+  for (std::size_t r = bank.first_row; r < bank.first_row + per_cell_ * bank.width; ++r) {
+    const DrivePath::Inverse inverse = path_.invert(static_cast<std::uint64_t>(at.norm[r]));
+    if (at.norm[r] != 0) at.reciprocal[r] = inverse.reciprocal; // a row of zeros divides nothing
+    multiplier_[r] = inverse.multiplier;
+    places_[r] = inverse.places;
+  }
+}
+
+void ClockedBeats::take_links(const ClockedBank& bank, bool neighbours) {
+  std::copy_n(&at.link[bank.first_row], per_cell_ * bank.width, in_.data());
+  if (!neighbours) return;
+  for (std::size_t tap = per_cell_; tap < bank.taps; tap += per_cell_)
+    gather_outputs(outputs_.data(), &layout_.source[bank.first_source + (tap / per_cell_ - 1) * bank.width],
+                   bank.reach[tap / lanes_], per_cell_, bank.width, &in_[tap * bank.width]);
+}
+
+void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
+  const std::size_t row = bank.first_row + p * bank.width;
+  const spec::NumberFormat& f = plan_.formats.accumulator;
+  if (plan_.exact) return engine::begin_sums(&at.bias[row], -plan_.bias_down, bank.width, &at.sum[row]);
+  for (std::size_t r = row; r < row + bank.width; ++r)
+    at.sum[r] = limit_to_format(round_shift<Int128>(at.bias[r], plan_.bias_down, f.rounding), f);
+}
+
+// A rounding accumulator writes its register once a beat; an exact one may as well take all beats at once.
+void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64_t first,
+                             std::uint64_t last) {
+  std::int64_t* sums = &at.sum[bank.first_row + p * bank.width];
+  const std::int32_t* weights = &at.weight[bank.first_weight + p * bank.taps * bank.width];
+  const std::size_t together = plan_.exact && plan_.product_up == 0 ? bank.beats() : 1;
+  for (std::size_t beat = first; beat < std::min<std::size_t>(last, bank.beats()); beat += together) {
+    const std::size_t tap = beat * lanes_, at_tap = tap * bank.width;
+    const std::size_t end = std::min({(beat + together) * lanes_, last * lanes_, bank.taps});
+    if (together > 1 || (plan_.exact && plan_.product_up == 0))
+      add_products(weights + at_tap, &in_[at_tap], bank.width, end - tap, bank.reach[beat], sums);
+    else
+      add_rounded(weights + at_tap, &in_[at_tap], bank.width, end - tap, bank.reach[beat], sums);
+  }
+}
+
+void ClockedBeats::add_rounded(const std::int32_t* weights, const std::int32_t* links, std::size_t stride,
+                               std::size_t taps, std::size_t rows, std::int64_t* sums) const {
+  for (std::size_t r = 0; r < rows; r += lane_count) {
+    alignas(64) std::int64_t products[lane_count] = {};
+    const std::size_t count = std::min(rows - r, lane_count);
+    add_products(weights + r, links + r, stride, taps, count, products);
+    if (narrow_sums_ && count == lane_count) {
+      shift_and_add_lanes(sums + r, plan_.sum_up, products, plan_.product_up);
+      round_lanes(sums + r, to_sum_);
+      limit_lanes(sums + r, plan_.formats.accumulator);
+    } else {
+      for (std::size_t l = 0; l < count; ++l) sums[r + l] = rounded_sum(sums[r + l], products[l]);
+    }
+  }
+}
+
+std::int64_t ClockedBeats::rounded_sum(std::int64_t sum, std::int64_t products) const {
+  const spec::NumberFormat& f = plan_.formats.accumulator;
+  const Int128 fine = shifted_up<Int128>(sum, plan_.sum_up) + shifted_up<Int128>(products, plan_.product_up);
+  return limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
+}
+
+void ClockedBeats::normalise(std::size_t first, std::size_t last) {
+  const auto rows = [this](std::size_t r) {
+    return DrivePath::Rows{&at.norm[r], &multiplier_[r], &places_[r]};
+  };
+  for (; last - first >= lane_count; first += lane_count)
+    path_.drives(rows(first), &at.sum[first], &at.drive[first]);
+  for (; first < last; ++first) at.drive[first] = path_.drive(rows(first), at.sum[first]);
+}
+
+void ClockedBeats::pull_to_bound(std::size_t first, std::size_t last) {
+  if (first < last)
+    pull(&at.drive[first], &at.state[first], plan_.one_state, to_state_, last - first, &at.change[first]);
+}
+
+std::int64_t ClockedBeats::publish(const ClockedBank& bank, std::size_t p) {
+  const std::size_t row = bank.first_row + p * bank.width;
+  const std::int64_t largest =
+      add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]);
+  std::int32_t* word = &outputs_[4 * bank.first_slot + p];
+  for (std::size_t w = 0; w < bank.width; ++w) word[4 * w] = at.link[row + w];
+  return largest;
+}
+
+} // namespace hopmesh::engine

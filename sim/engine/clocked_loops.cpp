@@ -1,0 +1,84 @@
+#include "sim/engine/clocked_loops.h"
+
+#include "sim/engine/widest.h"
+
+namespace hopmesh::engine {
+
+namespace {
+
+[[gnu::always_inline]] inline std::int64_t rounded(std::int64_t x, const LaneRounding& r) {
+  return (x + r.add + ((x >> 63) & r.add_if_negative) + ((x >> r.places) & r.add_if_odd)) >> r.places;
+}
+
+} // namespace
+
+HM_WIDEST void add_products(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
+                            std::size_t stride, std::size_t taps, std::size_t rows,
+                            std::int64_t* __restrict sums) {
+  for (; taps > 1 && rows >= lane_count; rows -= lane_count) { // many clocks at once: sums stay in registers
+    std::int64_t sum[lane_count];
+    for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
+    for (std::size_t t = 0; t < taps; ++t)
+      for (std::size_t l = 0; l < lane_count; ++l)
+        sum[l] += std::int64_t{weights[t * stride + l]} * links[t * stride + l];
+    for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
+    weights += lane_count;
+    links += lane_count;
+    sums += lane_count;
+  }
+  for (std::size_t t = 0; t < taps; ++t)
+    for (std::size_t r = 0; r < rows; ++r)
+      sums[r] += std::int64_t{weights[t * stride + r]} * links[t * stride + r];
+}
+
+HM_WIDEST void add_magnitudes(const std::int32_t* __restrict weights, std::size_t stride, std::size_t taps,
+                              int up, std::size_t rows, std::int64_t* __restrict norms) {
+  for (std::size_t t = 0; t < taps; ++t)
+    for (std::size_t r = 0; r < rows; ++r) {
+      const std::int64_t w = weights[t * stride + r];
+      norms[r] += (w < 0 ? -w : w) << up;
+    }
+}
+
+HM_WIDEST void begin_sums(const std::int32_t* __restrict biases, int up, std::size_t rows,
+                          std::int64_t* __restrict sums) {
+  const std::int64_t by = std::int64_t{1} << up;
+  for (std::size_t r = 0; r < rows; ++r) sums[r] = biases[r] * by;
+}
+
+HM_WIDEST void pull(const std::int64_t* __restrict drives, const std::int32_t* __restrict states,
+                    std::int64_t one, const LaneRounding& rounding, std::size_t rows,
+                    std::int64_t* __restrict changes) {
+  const LaneRounding to_state = rounding;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::int64_t u = drives[r], V = states[r], R = u >= 0 ? one - V : one + V;
+    changes[r] = rounded(R * u, to_state);
+  }
+}
+
+HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const LaneRounding& rounding,
+                                   std::size_t rows, std::int32_t* __restrict states,
+                                   std::int32_t* __restrict links) {
+  const LaneRounding to_link = rounding;
+  std::int64_t largest = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::int64_t change = changes[r], V = states[r] + change, size = change < 0 ? -change : change;
+    largest = size > largest ? size : largest;
+    states[r] = static_cast<std::int32_t>(V);
+    links[r] = static_cast<std::int32_t>(rounded(V, to_link));
+  }
+  return largest;
+}
+
+HM_WIDEST void gather_outputs(const std::int32_t* __restrict outputs, const std::uint32_t* __restrict slots,
+                              std::size_t places, std::size_t per_cell, std::size_t stride,
+                              std::int32_t* __restrict links) {
+  for (std::size_t w = 0; w < places; ++w) {
+    const std::int32_t* from = outputs + 4 * std::size_t{slots[w]};
+    links[w] = from[0];
+    links[stride + w] = from[1];
+    if (per_cell == 3) links[2 * stride + w] = from[2];
+  }
+}
+
+} // namespace hopmesh::engine

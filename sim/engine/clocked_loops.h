@@ -1,0 +1,27 @@
+// What the clock-stepped engine does in nearly every clock, as plain loops over rows side by side.
+#pragma once
+
+#include "sim/engine/lanes.h"
+
+namespace hopmesh::engine {
+
+/// sums += weights * links over `taps` taps; those of a tap lie `stride` behind those of the one before.
+void add_products(const std::int32_t* weights, const std::int32_t* links, std::size_t stride,
+                  std::size_t taps, std::size_t rows, std::int64_t* sums);
+/// norms += |weights| * 2^up.
+void add_magnitudes(const std::int32_t* weights, std::size_t stride, std::size_t taps, int up,
+                    std::size_t rows, std::int64_t* norms);
+/// sums <- biases * 2^up.
+void begin_sums(const std::int32_t* biases, int up, std::size_t rows, std::int64_t* sums);
+/// changes <- Q[R u].
+void pull(const std::int64_t* drives, const std::int32_t* states, std::int64_t one,
+          const LaneRounding& rounding, std::size_t rows, std::int64_t* changes);
+/// V <- V + Delta V, and its links; returns the largest |Delta V|.
+std::int64_t add_changes(const std::int64_t* changes, const LaneRounding& to_link, std::size_t rows,
+                         std::int32_t* states, std::int32_t* links);
+/// links[neuron][place] <- outputs[4 * slots[place] + neuron], for `per_cell` neurons whose taps lie `stride`
+/// apart.
+void gather_outputs(const std::int32_t* outputs, const std::uint32_t* slots, std::size_t places,
+                    std::size_t per_cell, std::size_t stride, std::int32_t* links);
+
+} // namespace hopmesh::engine
