@@ -17,9 +17,9 @@ using cosim::SharedBus;
 namespace {
 
 // A pointer to the port's bus that keeps the port.
-SharedBus bus_of(std::shared_ptr<study::ArrayPort> port) {
+SharedBus bus_of(const std::shared_ptr<study::ArrayPort>& port) {
   const hm_bus* bus = &port->bus();
-  return {std::move(port), bus};
+  return {port, bus};
 }
 
 Contestant engine_contestant(const std::string& name, const engine::Options& options, std::uint64_t one_in) {
