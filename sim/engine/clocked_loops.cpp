@@ -70,14 +70,13 @@ HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const
   return largest;
 }
 
-HM_WIDEST void gather_outputs(const std::int32_t* __restrict outputs, const std::uint32_t* __restrict slots,
-                              std::size_t places, std::size_t per_cell, std::size_t stride,
-                              std::int32_t* __restrict links) {
-  for (std::size_t w = 0; w < places; ++w) {
-    const std::int32_t* from = outputs + 4 * std::size_t{slots[w]};
-    links[w] = from[0];
-    links[stride + w] = from[1];
-    if (per_cell == 3) links[2 * stride + w] = from[2];
+HM_WIDEST void copy_runs(const std::int32_t* __restrict links, const LinkRun* __restrict runs,
+                         std::size_t count, std::size_t p, std::int32_t* __restrict inputs) {
+  for (const LinkRun *run = runs, *const end = runs + count; run != end; ++run) {
+    const std::int32_t* from = links + run->row + p * run->width;
+    std::int32_t* to = inputs + run->place;
+    for (std::uint32_t k = 0; k < run->count; k += lane_count)
+      for (std::size_t l = 0; l < lane_count; ++l) to[k + l] = from[k + l];
   }
 }
 

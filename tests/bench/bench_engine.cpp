@@ -1,4 +1,5 @@
 // How fast the engine relaxes flags of any size, and how near that is to what this processor can do at most.
+#include "tests/bench/clocked_flag.h"
 #include "tests/bench/grid_network.h"
 
 #include <benchmark/benchmark.h>
@@ -32,6 +33,18 @@ void sweeps(benchmark::State& state, std::size_t rows, const std::string& array,
   state.SetLabel(e.kernel());
 }
 
+/// Clocks of flag-400 on the clock-stepped engine; `how` steps so many.
+void clocks(benchmark::State& state, std::int64_t (ClockedFlag::*how)(std::uint64_t)) {
+  constexpr std::uint64_t count = 105219; // a run of 282 sweeps, all but one clock
+  static ClockedFlag flag;
+  (flag.*how)(count);
+  for (auto _ : state) benchmark::DoNotOptimize((flag.*how)(count));
+  const auto all = static_cast<double>(state.iterations()) * static_cast<double>(count);
+  state.counters["cycles/s"] = benchmark::Counter(all, benchmark::Counter::kIsRate);
+  state.counters["s/cycle"] =
+      benchmark::Counter(all, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 } // namespace
 } // namespace hopmesh::bench
 
@@ -61,6 +74,12 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(("followed 1000000/" + std::to_string(f)).c_str(), [=](benchmark::State& s) {
       sweeps(s, 1000, "", {1, "auto", std::size_t(f)});
     });
+  const std::pair<const char*, std::int64_t (ClockedFlag::*)(std::uint64_t)> ways[] = {
+      {"clocked/one by one", &ClockedFlag::step},
+      {"clocked/all registers copied", &ClockedFlag::step_and_copy},
+      {"clocked/in strides", &ClockedFlag::stride}};
+  for (const auto& [name, how] : ways)
+    benchmark::RegisterBenchmark(name, [how = how](benchmark::State& s) { clocks(s, how); });
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }
