@@ -70,6 +70,19 @@ void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
     at.sum[r] = limit_to_format(round_shift<Int128>(at.bias[r], plan_.bias_down, f.rounding), f);
 }
 
+namespace {
+
+void add_taps(const std::int32_t* weights, const std::int32_t* links, std::size_t stride, std::size_t taps,
+              std::size_t rows, std::int64_t* sums) {
+  std::size_t r = 0;
+  for (; taps > 1 && r + lane_count <= rows; r += lane_count)
+    add_products(weights + r, links + r, stride, taps, sums + r);
+  for (; taps > 0 && r < rows; --taps, weights += stride, links += stride)
+    add_tap(weights + r, links + r, rows - r, sums + r);
+}
+
+} // namespace
+
 // A rounding accumulator writes its register once a beat; an exact one may as well take all beats at once.
 void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64_t first,
                              std::uint64_t last) {
@@ -79,8 +92,8 @@ void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64
   const auto taps_until = [&](std::uint64_t beat) { return std::min<std::size_t>(beat * lanes_, bank.taps); };
   if (plain_sums_) {
     const std::size_t tap = first * lanes_, place = tap * bank.width;
-    return add_products(weights + place, in_.data() + place, bank.width, taps_until(last) - tap,
-                        bank.reach[first], sums);
+    return add_taps(weights + place, in_.data() + place, bank.width, taps_until(last) - tap,
+                    bank.reach[first], sums);
   }
   for (std::uint64_t beat = first; beat < last && beat < bank.beats(); ++beat) {
     const std::size_t tap = beat * lanes_, place = tap * bank.width;
@@ -94,7 +107,7 @@ void ClockedBeats::add_rounded(const std::int32_t* weights, const std::int32_t* 
   for (std::size_t r = 0; r < rows; r += lane_count) {
     alignas(64) std::int64_t products[lane_count] = {};
     const std::size_t count = std::min(rows - r, lane_count);
-    add_products(weights + r, links + r, stride, taps, count, products);
+    add_taps(weights + r, links + r, stride, taps, count, products);
     if (narrow_sums_ && count == lane_count) {
       shift_and_add_lanes(sums + r, plan_.sum_up, products, plan_.product_up);
       round_lanes(sums + r, to_sum_);

@@ -6,9 +6,11 @@
 
 namespace hopmesh::engine {
 
-/// sums += weights * links over `taps` taps; those of a tap lie `stride` behind those of the one before.
+/// sums += weights * links: one tap of `rows` rows.
+void add_tap(const std::int32_t* weights, const std::int32_t* links, std::size_t rows, std::int64_t* sums);
+/// The same for `taps` taps of lane_count rows; those of a tap lie `stride` behind those of the one before.
 void add_products(const std::int32_t* weights, const std::int32_t* links, std::size_t stride,
-                  std::size_t taps, std::size_t rows, std::int64_t* sums);
+                  std::size_t taps, std::int64_t* sums);
 /// norms += |weights| * 2^up.
 void add_magnitudes(const std::int32_t* weights, std::size_t stride, std::size_t taps, int up,
                     std::size_t rows, std::int64_t* norms);
