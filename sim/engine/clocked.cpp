@@ -42,13 +42,12 @@ void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
   max_sweeps_ = std::max(max_sweeps, 1u);
   result_ = {};
   done_ = false;
-  segment_ = start_taken;
-  beat_ = 0;
+  enter(start_taken);
 }
 
 void ClockedEngine::step(std::uint64_t clocks) {
   while (clocks > 0 && segment_ != idle) {
-    const std::uint64_t left = length() - beat_, some = std::min(clocks, left);
+    const std::uint64_t left = length_ - beat_, some = std::min(clocks, left);
     do_beats(beat_, beat_ + some);
     clocks -= some;
     result_.cycles += some;
@@ -57,14 +56,21 @@ void ClockedEngine::step(std::uint64_t clocks) {
   }
 }
 
-std::uint64_t ClockedEngine::length() const {
-  if (segment_ >= first_phase) return cycles_.phase[static_cast<std::size_t>(segment_ - first_phase)];
-  return segment_ == prepare ? cycles_.prepare : 1;
+void ClockedEngine::enter(int segment) {
+  segment_ = segment;
+  beat_ = 0;
+  length_ = segment == prepare ? cycles_.prepare : 1;
+  if (segment < first_phase) return;
+  const auto phase = static_cast<std::size_t>(segment - first_phase);
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  length_ = cycles_.phase[phase];
+  firing_ = {phase / per_cell, phase % per_cell, phase % per_cell + 1};
+  if (plan_.schedule == spec::Schedule::synchronous) firing_ = {0, 0, per_cell};
 }
 
 void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {
   if (segment_ >= first_phase)
-    do_phase(static_cast<std::size_t>(segment_ - first_phase), first, last);
+    do_phase(first, last);
   else if (segment_ == prepare)
     do_prepare(first, last);
 }
@@ -78,25 +84,23 @@ void ClockedEngine::do_prepare(std::uint64_t first, std::uint64_t last) {
 }
 
 // Accumulate, normalise, R u, publish: each row when its own beats are over, but all publish in the last one.
-void ClockedEngine::do_phase(std::size_t phase, std::uint64_t first, std::uint64_t last) {
-  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
-  const bool together = plan_.schedule == spec::Schedule::synchronous;
-  const ClockedBank& bank = layout_.banks[phase / per_cell];
-  const std::size_t first_p = together ? 0 : phase % per_cell, last_p = together ? per_cell : first_p + 1;
+void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
+  const ClockedBank& bank = layout_.banks[firing_.bank];
   if (first == 0) {
-    beats_.take_links(bank, first_p == 0);
-    if (phase == 0) largest_ = 0;
+    beats_.take_links(bank, firing_.first_p == 0);
+    if (segment_ == first_phase) largest_ = 0;
   }
-  const auto from = static_cast<std::int64_t>(first - normalise_cycles_),
-             to = from + std::int64_t(last - first);
+  const auto from = static_cast<std::int64_t>(first - normalise_cycles_);
+  const auto to = from + static_cast<std::int64_t>(last - first);
   const auto normalised = bank.with_beats(from + 1, to), pulled = bank.with_beats(from, to - 1);
-  for (std::size_t p = first_p; p < last_p; ++p) {
+  for (std::size_t p = firing_.first_p; p < firing_.last_p; ++p) {
     const std::size_t row = bank.first_row + p * bank.width;
     if (first == 0) beats_.begin_sums(bank, p);
     beats_.add_beats(bank, p, first, last);
-    beats_.normalise(row + normalised.first, row + normalised.second);
-    beats_.pull_to_bound(row + pulled.first, row + pulled.second);
-    if (last == cycles_.phase[phase]) largest_ = std::max(largest_, beats_.publish(bank, p));
+    if (normalised.first < normalised.second)
+      beats_.normalise(row + normalised.first, row + normalised.second);
+    if (pulled.first < pulled.second) beats_.pull_to_bound(row + pulled.first, row + pulled.second);
+    if (last == length_) largest_ = std::max(largest_, beats_.publish(bank, p));
   }
 }
 
@@ -106,9 +110,8 @@ void ClockedEngine::leave_segment() {
     result_.largest_change = static_cast<std::uint32_t>(largest_);
     result_.converged = largest_ <= threshold_;
   }
-  segment_ = next_segment();
+  enter(next_segment());
   done_ = segment_ == idle;
-  beat_ = 0;
 }
 
 int ClockedEngine::next_segment() const {

@@ -54,10 +54,14 @@ class ClockedEngine {
   std::size_t row(std::size_t neuron) const { return row_[neuron]; }
 
  private:
-  std::uint64_t length() const;
+  /// Who fires in a phase: neurons [first_p, last_p) of a bank's cells.
+  struct Firing {
+    std::size_t bank, first_p, last_p;
+  };
   void do_beats(std::uint64_t first, std::uint64_t last);
   void do_prepare(std::uint64_t first, std::uint64_t last);
-  void do_phase(std::size_t phase, std::uint64_t first, std::uint64_t last);
+  void do_phase(std::uint64_t first, std::uint64_t last);
+  void enter(int segment);
   void leave_segment();
   int next_segment() const;
 
@@ -70,7 +74,8 @@ class ClockedEngine {
   ClockedBeats beats_;
   std::vector<std::uint32_t> row_; ///< of a neuron
   int segment_ = idle;
-  std::uint64_t beat_ = 0;
+  std::uint64_t beat_ = 0, length_ = 0; ///< of the segment
+  Firing firing_{0, 0, 0};
   bool done_ = false;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
   std::int64_t largest_ = 0; ///< |Delta V| of the sweep at hand: the convergence detector

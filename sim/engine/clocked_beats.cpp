@@ -11,17 +11,17 @@ ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
     : plan_(plan), layout_(layout), path_(plan),
       to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
       to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)),
-      narrow_sums_(!plan.exact && plan.sum_up <= 52),
+      plain_sums_(plan.exact && plan.product_up == 0), narrow_sums_(!plan.exact && plan.sum_up <= 52),
       per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
-      lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.widest, 0) {
+      lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.inputs + lane_count, 0) {
   if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
   at.weight.assign(layout.weights, 0);
   at.bias.assign(layout.rows, 0);
-  at.state = at.link = at.bias;
+  at.state = at.bias;
+  at.link.assign(layout.rows + lane_count, 0);
   at.norm.assign(layout.rows, 0);
   at.reciprocal = at.sum = at.drive = at.change = multiplier_ = at.norm;
   places_.assign(layout.rows, 0);
-  outputs_.assign(4 * layout.slots, 0);
 }
 
 void ClockedBeats::load(std::size_t cell, std::size_t p, std::int32_t state) {
@@ -29,7 +29,6 @@ void ClockedBeats::load(std::size_t cell, std::size_t p, std::int32_t state) {
   at.state[row] = state;
   at.link[row] = static_cast<std::int32_t>(
       round_shift<std::int64_t>(state, plan_.link_down, plan_.formats.link.rounding));
-  outputs_[4 * layout_.slot(cell) + p] = at.link[row];
 }
 
 void ClockedBeats::begin_norms(const ClockedBank& bank) {
@@ -57,9 +56,10 @@ void ClockedBeats::invert(const ClockedBank& bank) {
 void ClockedBeats::take_links(const ClockedBank& bank, bool neighbours) {
   std::copy_n(&at.link[bank.first_row], per_cell_ * bank.width, in_.data());
   if (!neighbours) return;
-  for (std::size_t tap = per_cell_; tap < bank.taps; tap += per_cell_)
-    gather_outputs(outputs_.data(), &layout_.source[bank.first_source + (tap / per_cell_ - 1) * bank.width],
-                   bank.reach[tap / lanes_], per_cell_, bank.width, &in_[tap * bank.width]);
+  std::int32_t* inputs = &in_[per_cell_ * bank.width];
+  for (const std::vector<LinkRun>& runs : bank.runs)
+    for (std::size_t p = 0; p < per_cell_; ++p, inputs += bank.width)
+      copy_runs(at.link.data(), runs.data(), runs.size(), p, inputs);
 }
 
 void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
@@ -70,19 +70,35 @@ void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
     at.sum[r] = limit_to_format(round_shift<Int128>(at.bias[r], plan_.bias_down, f.rounding), f);
 }
 
+namespace {
+
+void add_taps(const std::int32_t* weights, const std::int32_t* links, std::size_t stride, std::size_t taps,
+              std::size_t rows, std::int64_t* sums) {
+  std::size_t r = 0;
+  for (; taps > 1 && r + lane_count <= rows; r += lane_count)
+    add_products(weights + r, links + r, stride, taps, sums + r);
+  for (; taps > 0 && r < rows; --taps, weights += stride, links += stride)
+    add_tap(weights + r, links + r, rows - r, sums + r);
+}
+
+} // namespace
+
 // A rounding accumulator writes its register once a beat; an exact one may as well take all beats at once.
 void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64_t first,
                              std::uint64_t last) {
+  if (first >= bank.beats()) return;
   std::int64_t* sums = &at.sum[bank.first_row + p * bank.width];
   const std::int32_t* weights = &at.weight[bank.first_weight + p * bank.taps * bank.width];
-  const std::size_t together = plan_.exact && plan_.product_up == 0 ? bank.beats() : 1;
-  for (std::size_t beat = first; beat < std::min<std::size_t>(last, bank.beats()); beat += together) {
-    const std::size_t tap = beat * lanes_, at_tap = tap * bank.width;
-    const std::size_t end = std::min({(beat + together) * lanes_, last * lanes_, bank.taps});
-    if (together > 1 || (plan_.exact && plan_.product_up == 0))
-      add_products(weights + at_tap, &in_[at_tap], bank.width, end - tap, bank.reach[beat], sums);
-    else
-      add_rounded(weights + at_tap, &in_[at_tap], bank.width, end - tap, bank.reach[beat], sums);
+  const auto taps_until = [&](std::uint64_t beat) { return std::min<std::size_t>(beat * lanes_, bank.taps); };
+  if (plain_sums_) {
+    const std::size_t tap = first * lanes_, place = tap * bank.width;
+    return add_taps(weights + place, in_.data() + place, bank.width, taps_until(last) - tap,
+                    bank.reach[first], sums);
+  }
+  for (std::uint64_t beat = first; beat < last && beat < bank.beats(); ++beat) {
+    const std::size_t tap = beat * lanes_, place = tap * bank.width;
+    add_rounded(weights + place, in_.data() + place, bank.width, taps_until(beat + 1) - tap, bank.reach[beat],
+                sums);
   }
 }
 
@@ -91,7 +107,7 @@ void ClockedBeats::add_rounded(const std::int32_t* weights, const std::int32_t* 
   for (std::size_t r = 0; r < rows; r += lane_count) {
     alignas(64) std::int64_t products[lane_count] = {};
     const std::size_t count = std::min(rows - r, lane_count);
-    add_products(weights + r, links + r, stride, taps, count, products);
+    add_taps(weights + r, links + r, stride, taps, count, products);
     if (narrow_sums_ && count == lane_count) {
       shift_and_add_lanes(sums + r, plan_.sum_up, products, plan_.product_up);
       round_lanes(sums + r, to_sum_);
@@ -124,11 +140,7 @@ void ClockedBeats::pull_to_bound(std::size_t first, std::size_t last) {
 
 std::int64_t ClockedBeats::publish(const ClockedBank& bank, std::size_t p) {
   const std::size_t row = bank.first_row + p * bank.width;
-  const std::int64_t largest =
-      add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]);
-  std::int32_t* word = &outputs_[4 * bank.first_slot + p];
-  for (std::size_t w = 0; w < bank.width; ++w) word[4 * w] = at.link[row + w];
-  return largest;
+  return add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]);
 }
 
 } // namespace hopmesh::engine

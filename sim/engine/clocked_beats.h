@@ -50,11 +50,11 @@ class ClockedBeats {
   const DrivePath path_;
   const LaneRounding to_state_, to_link_;
   LaneRounding to_sum_;
-  bool narrow_sums_ = false; ///< a rounding accumulator stays within 63 bits
+  const bool plain_sums_;  ///< products add up as they are
+  const bool narrow_sums_; ///< a rounding accumulator stays within 63 bits
   const std::size_t per_cell_, lanes_;
   AlignedVector<std::int64_t> multiplier_; ///< by row, and
   std::vector<int> places_;                ///< what DrivePath makes of r
-  AlignedVector<std::int32_t> outputs_;    ///< links again, four words a slot: what neighbours take
   AlignedVector<std::int32_t> in_;         ///< [tap][place] of the bank that fires: what it reads
 };
 

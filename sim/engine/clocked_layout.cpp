@@ -25,21 +25,14 @@ std::vector<std::vector<std::uint32_t>> cells_of_banks(const spec::Topology& t, 
 
 } // namespace
 
-std::pair<std::size_t, std::size_t> ClockedBank::with_beats(std::int64_t least, std::int64_t most) const {
-  least = std::max<std::int64_t>(least, 1);
-  most = std::min<std::int64_t>(most, static_cast<std::int64_t>(beats()));
-  if (least > most) return {0, 0};
-  return {reach[static_cast<std::size_t>(most)], reach[static_cast<std::size_t>(least) - 1]};
-}
-
 // A bank of one cell is worked on row by row; all others in full lanes.
 ClockedLayout::ClockedLayout(const spec::ArraySpec& array, const spec::Topology& t,
                              const spec::Phases& phases)
     : bank_of_cell(t.cells(), 0), place_of_cell(t.cells(), 0) {
   const std::size_t unit = array.schedule == spec::Schedule::sequential ? 1 : lane_count;
-  for (auto& cells : cells_of_banks(t, phases, array.schedule))
-    place(std::move(cells), t, static_cast<std::size_t>(array.lanes), unit);
-  find_sources(t);
+  const auto members = cells_of_banks(t, phases, array.schedule);
+  for (const auto& cells : members) place(cells, t, static_cast<std::size_t>(array.lanes), unit);
+  find_runs(members, t);
 }
 
 void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::Topology& t, std::size_t lanes,
@@ -50,10 +43,8 @@ void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::Topology
                    [&](std::uint32_t a, std::uint32_t b) { return t.taps(a) > t.taps(b); });
   ClockedBank bank;
   bank.taps = t.taps(cells.front());
-  bank.first_slot = slots;
   bank.first_row = rows;
   bank.first_weight = weights;
-  bank.first_source = source.size();
   bank.reach.assign(beats_of(cells.front()) + 1, 0);
   for (std::size_t k = 0; k < cells.size(); ++k) {
     bank_of_cell[cells[k]] = static_cast<std::uint32_t>(banks.size());
@@ -63,26 +54,33 @@ void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::Topology
     bank.width = (bank.width + unit - 1) / unit * unit;
     std::fill_n(bank.reach.begin(), beats, bank.width);
   }
-  slots += bank.width;
   rows += per_cell * bank.width;
   weights += per_cell * bank.taps * bank.width;
-  widest = std::max(widest, bank.taps * bank.width);
-  source.resize(source.size() + (bank.taps / per_cell - 1) * bank.width);
+  inputs = std::max(inputs, bank.taps * bank.width);
   banks.push_back(std::move(bank));
 }
 
-void ClockedLayout::find_sources(const spec::Topology& t) {
+void ClockedLayout::find_runs(const std::vector<std::vector<std::uint32_t>>& cells, const spec::Topology& t) {
   for (std::size_t b = 0; b < banks.size(); ++b) {
-    const std::size_t end = b + 1 < banks.size() ? banks[b + 1].first_source : source.size();
-    for (std::size_t k = banks[b].first_source; k < end; ++k)
-      source[k] =
-          static_cast<std::uint32_t>(banks[b].first_slot + (k - banks[b].first_source) % banks[b].width);
-  }
-  for (std::size_t c = 0; c < t.cells(); ++c) {
-    const ClockedBank& bank = banks[bank_of_cell[c]];
-    for (std::size_t k = 0; k < t.degree(c); ++k)
-      source[bank.first_source + k * bank.width + place_of_cell[c]] =
-          static_cast<std::uint32_t>(slot(t.link_to[t.first_link[c] + k]));
+    ClockedBank& bank = banks[b];
+    bank.runs.resize(bank.taps / static_cast<std::size_t>(t.neurons_per_cell) - 1);
+    for (std::size_t k = 0; k < bank.runs.size(); ++k) {
+      std::vector<std::uint32_t> source(bank.width, static_cast<std::uint32_t>(b)), row(bank.width);
+      for (std::size_t w = 0; w < bank.width; ++w) row[w] = static_cast<std::uint32_t>(bank.first_row + w);
+      for (std::uint32_t c : cells[b]) {
+        if (k >= t.degree(c)) continue;
+        const std::uint32_t other = t.link_to[t.first_link[c] + k];
+        source[place_of_cell[c]] = bank_of_cell[other];
+        row[place_of_cell[c]] = static_cast<std::uint32_t>(this->row(other, 0));
+      }
+      for (std::uint32_t w = 0; w < bank.width; ++w) {
+        const bool goes_on = w > 0 && source[w] == source[w - 1] && row[w] == row[w - 1] + 1;
+        if (goes_on)
+          bank.runs[k].back().count += 1;
+        else
+          bank.runs[k].push_back({w, 1, row[w], static_cast<std::uint32_t>(banks[source[w]].width)});
+      }
+    }
   }
 }
 

@@ -12,23 +12,20 @@ namespace {
 
 } // namespace
 
+// One clock. A loop of its own: inside the next one the compiler would look for a nest to interchange.
+HM_WIDEST void add_tap(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
+                       std::size_t rows, std::int64_t* __restrict sums) {
+  for (std::size_t r = 0; r < rows; ++r) sums[r] += std::int64_t{weights[r]} * links[r];
+}
+
+// Many clocks at once: sums stay in registers.
 HM_WIDEST void add_products(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
-                            std::size_t stride, std::size_t taps, std::size_t rows,
-                            std::int64_t* __restrict sums) {
-  for (; taps > 1 && rows >= lane_count; rows -= lane_count) { // many clocks at once: sums stay in registers
-    std::int64_t sum[lane_count];
-    for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
-    for (std::size_t t = 0; t < taps; ++t)
-      for (std::size_t l = 0; l < lane_count; ++l)
-        sum[l] += std::int64_t{weights[t * stride + l]} * links[t * stride + l];
-    for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
-    weights += lane_count;
-    links += lane_count;
-    sums += lane_count;
-  }
-  for (std::size_t t = 0; t < taps; ++t)
-    for (std::size_t r = 0; r < rows; ++r)
-      sums[r] += std::int64_t{weights[t * stride + r]} * links[t * stride + r];
+                            std::size_t stride, std::size_t taps, std::int64_t* __restrict sums) {
+  std::int64_t sum[lane_count];
+  for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
+  for (std::size_t t = 0; t < taps; ++t, weights += stride, links += stride)
+    for (std::size_t l = 0; l < lane_count; ++l) sum[l] += std::int64_t{weights[l]} * links[l];
+  for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
 }
 
 HM_WIDEST void add_magnitudes(const std::int32_t* __restrict weights, std::size_t stride, std::size_t taps,
@@ -70,14 +67,13 @@ HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const
   return largest;
 }
 
-HM_WIDEST void gather_outputs(const std::int32_t* __restrict outputs, const std::uint32_t* __restrict slots,
-                              std::size_t places, std::size_t per_cell, std::size_t stride,
-                              std::int32_t* __restrict links) {
-  for (std::size_t w = 0; w < places; ++w) {
-    const std::int32_t* from = outputs + 4 * std::size_t{slots[w]};
-    links[w] = from[0];
-    links[stride + w] = from[1];
-    if (per_cell == 3) links[2 * stride + w] = from[2];
+HM_WIDEST void copy_runs(const std::int32_t* __restrict links, const LinkRun* __restrict runs,
+                         std::size_t count, std::size_t p, std::int32_t* __restrict inputs) {
+  for (const LinkRun *run = runs, *const end = runs + count; run != end; ++run) {
+    const std::int32_t* from = links + run->row + p * run->width;
+    std::int32_t* to = inputs + run->place;
+    for (std::uint32_t k = 0; k < run->count; k += lane_count)
+      for (std::size_t l = 0; l < lane_count; ++l) to[k + l] = from[k + l];
   }
 }
 

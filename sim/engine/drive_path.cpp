@@ -52,6 +52,10 @@ void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* 
       u[l] = drive({rows.norm + l, rows.multiplier + l, rows.places + l}, sum[l]);
     return;
   }
+  const auto overflow = plan_.formats.drive.overflow; // those that saturate end beyond the limiter
+  if (plan_.normaliser == spec::Normaliser::reciprocal && overflow != spec::Overflow::wrap &&
+      overflow != spec::Overflow::sat_zero)
+    return scale_lanes(u, rows.multiplier, to_drive_, plan_.one_drive);
   if (plan_.normaliser == spec::Normaliser::divider) {
     divide_lanes(u, plan_.ratio_up, rows.norm, plan_.formats.drive.rounding);
   } else {

@@ -106,6 +106,15 @@ HM_WIDEST void multiply_lanes(std::int64_t* __restrict x, const std::int64_t* fa
   for (std::size_t l = 0; l < lane_count; ++l) x[l] *= factor[l];
 }
 
+HM_WIDEST void scale_lanes(std::int64_t* __restrict x, const std::int64_t* __restrict factor,
+                           const LaneRounding& rounding, std::int64_t bound) {
+  const LaneRounding r = rounding;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t y = rounded(x[l] * factor[l], r);
+    x[l] = y < -bound ? -bound : y > bound ? bound : y;
+  }
+}
+
 HM_WIDEST void round_lanes(std::int64_t* __restrict x, const LaneRounding& rounding) {
   const LaneRounding r = rounding;
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = rounded(x[l], r);

@@ -36,6 +36,9 @@ void divide_lanes(std::int64_t* x, int up, const std::int64_t* divisor, spec::Ro
 /// x <- x * 2^up + more * 2^more_up.
 void shift_and_add_lanes(std::int64_t* x, int up, const std::int64_t* more, int more_up);
 void multiply_lanes(std::int64_t* x, const std::int64_t* factor);
+/// x <- x * factor rounded, held within [-bound, bound].
+void scale_lanes(std::int64_t* x, const std::int64_t* factor, const LaneRounding& rounding,
+                 std::int64_t bound);
 void round_lanes(std::int64_t* x, const LaneRounding& rounding);
 /// Each code brought into the format's range.
 void limit_lanes(std::int64_t* x, const spec::NumberFormat& format);

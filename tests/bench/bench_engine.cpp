@@ -2,6 +2,7 @@
 // streams and multiply-adds of the same kind, measured in the same run.
 #include "sim/reference/reference.h"
 #include "sim/study/reference_check.h"
+#include "tests/bench/clocked_flag.h"
 #include "tests/bench/grid_network.h"
 #include "tests/bench/roofs.h"
 
@@ -80,6 +81,18 @@ void multiply_roof(benchmark::State& state) {
   state.counters["products/s"] = Counter(products, Counter::kIsRate);
 }
 
+/// Clocks of flag-400 on the clock-stepped engine; `how` steps so many.
+void clocks(benchmark::State& state, std::int64_t (ClockedFlag::*how)(std::uint64_t)) {
+  constexpr std::uint64_t count = 105219; // a run of 282 sweeps, all but one clock
+  static ClockedFlag flag;
+  (flag.*how)(count);
+  for (auto _ : state) benchmark::DoNotOptimize((flag.*how)(count));
+  const auto all = static_cast<double>(state.iterations()) * static_cast<double>(count);
+  state.counters["cycles/s"] = benchmark::Counter(all, benchmark::Counter::kIsRate);
+  state.counters["s/cycle"] =
+      benchmark::Counter(all, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 template <typename Body> void add(const std::string& name, Body body, bool wall = false) {
   auto* b = benchmark::RegisterBenchmark(name.c_str(), body)->Repetitions(5)->Unit(benchmark::kMillisecond);
   b->MinTime(0.1);
@@ -135,6 +148,9 @@ void register_all() {
       relax(s, flag(1000, ""), {1, "auto", sweeps});
     });
   add("reference/double, Eigen", relax_reference);
+  add("clocked/one by one", [](benchmark::State& s) { clocks(s, &ClockedFlag::step); });
+  add("clocked/all registers copied", [](benchmark::State& s) { clocks(s, &ClockedFlag::step_and_copy); });
+  add("clocked/in strides", [](benchmark::State& s) { clocks(s, &ClockedFlag::stride); });
 }
 
 } // namespace

@@ -40,6 +40,10 @@ void print_ratios(const Results& r) {
   ratio("engine / Verilator, a module per neuron",
         engine / updates(r, "flag-400 rtl/Verilator, a module per neuron"), 800, 2000);
   ratio("engine / SystemC, by phase", engine / updates(r, "flag-400 rtl/SystemC, by phase"), 50, 150);
+  ratio("clock by clock, every register / Verilator, time-multiplexed",
+        r.median("clocked/one by one", "cycles/s") /
+            r.median("flag-400 rtl/Verilator, time-multiplexed", "cycles/s"),
+        10, 25);
   ratio("engine / Eigen double reference", updates(r, "plain/400") / updates(r, "reference/double, Eigen"),
         15, 35);
   ratio("10^6 nodes, 8 sweeps following each other / plain sweeps",

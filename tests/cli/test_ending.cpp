@@ -133,7 +133,7 @@ TEST_F(CliEnding, AWaveEndsEarlyAndSaysSoWhenItsDiskIsNearlyFull) {
   fs::create_directory(at("disk"));
   if (mount("tmpfs", at("disk").c_str(), "tmpfs", 0, "size=65m") != 0)
     GTEST_SKIP() << "no right to mount a small disk";
-  const Finished f = hopmesh("run flag-225 --steps 2 --no-check --out r --wave disk/w.vcd");
+  const Finished f = hopmesh("run flag-225 --level systemc --steps 2 --no-check --out r --wave disk/w.vcd");
   const std::string wave = content_of(at("disk/w.vcd"));
   umount(at("disk").c_str());
   EXPECT_EQ(f.exit_code, 2);

@@ -31,8 +31,8 @@ class WaveFile : public testing::Test {
 
   /// Exit code of `hopmesh run ...` in the test's folder.
   int run(const std::string& arguments) {
-    const std::string command = "cd " + folder.string() + " && '" HOPMESH_PROGRAM "' run " + arguments +
-                                " >out.txt 2>err.txt </dev/null";
+    const std::string command = "cd " + folder.string() + " && '" HOPMESH_PROGRAM "' run --level systemc " +
+                                arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
