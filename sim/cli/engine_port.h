@@ -1,6 +1,7 @@
 // The level `engine`: the native array behind the firmware's bus.
 #pragma once
 
+#include "sim/cli/engine_wave.h"
 #include "sim/engine/device.h"
 #include "sim/study/array_port.h"
 
@@ -10,16 +11,26 @@ class EnginePort : public study::ArrayPort {
  public:
   /// `stop` ends a relaxation between two sweeps.
   EnginePort(const spec::ArraySpec& array, const spec::Topology& topology, const engine::Options& options,
-             const std::atomic<bool>& stop)
-      : device_(array, topology, options, stop) {}
+             const WaveRequest& wave, const std::atomic<bool>& stop);
 
   const engine::Engine& engine() const { return device_.engine(); }
 
-  const hm_bus& bus() override { return device_.bus(); }
+  const hm_bus& bus() override { return wave_ ? bus_ : device_.bus(); }
+  void begin_step(std::uint64_t step) override;
+  void end_step(std::uint64_t step) override;
+  void finish() override;
   std::vector<study::SignalRange> inner_ranges() const override;
+  std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:
+  int wait();
+  int write(std::uint32_t address, std::uint32_t word);
+  std::uint64_t bus_cycles() const;
+
   engine::Device device_;
+  const std::atomic<bool>& stop_;
+  std::optional<EngineWave> wave_;
+  hm_bus bus_{}; ///< the device's, with an eye on runs and on the interrupt line
 };
 
 } // namespace hopmesh::cli

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fmt/format.h>
+#include <systemc>
 
 using namespace hopmesh;
 

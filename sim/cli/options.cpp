@@ -62,10 +62,10 @@ const std::vector<std::string>& level_names() {
 namespace {
 
 std::unique_ptr<study::ArrayPort> make_engine(const spec::ArraySpec& array, const spec::Topology& topology,
-                                              const engine::Options& options) {
-  engine::Options useful = options;
-  useful.threads = engine::useful_threads(topology, options.threads);
-  auto port = std::make_unique<EnginePort>(array, topology, useful, stop_requested);
+                                              const PortRequest& request) {
+  engine::Options useful = request.engine;
+  useful.threads = engine::useful_threads(topology, useful.threads);
+  auto port = std::make_unique<EnginePort>(array, topology, useful, request.wave, stop_requested);
   const std::string why = port->engine().why_no_kernel();
   if (!why.empty())
     fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
@@ -76,7 +76,7 @@ std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const Prepa
                                             const PortRequest& request) {
   const spec::ArraySpec& array = p.inputs.array;
   const spec::Topology& topology = p.mesh->topology();
-  if (name == "engine") return make_engine(array, topology, request.engine);
+  if (name == "engine") return make_engine(array, topology, request);
   const auto waking = name == "systemc" ? systemc::Waking::by_phase : systemc::Waking::by_clock;
   return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
                                        request.wave, stop_requested);

@@ -1,7 +1,7 @@
 // What the verbs have in common: scene, array, overrides, levels; and one function a verb.
 #pragma once
 
-#include "sim/cli/wave.h"
+#include "sim/cli/wave_request.h"
 #include "sim/engine/engine.h"
 #include "sim/scene/scene_file.h"
 #include "sim/study/array_motion.h"
@@ -45,7 +45,7 @@ struct Level {
   study::ArrayMotion* array = nullptr;
 };
 
-/// What a level's array may be asked beside its bits: a wave (SystemC), threads (engine).
+/// What a level's array may be asked beside its bits: a wave, threads (engine).
 struct PortRequest {
   WaveRequest wave;
   engine::Options engine;

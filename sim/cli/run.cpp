@@ -38,8 +38,9 @@ WaveRequest wave_of(const RunOptions& o) {
   if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))
     throw scene::input_error("", 0, o.wave_window.empty() ? "--wave-cells" : "--wave-window", "no --wave",
                              "--wave FILE.vcd");
-  if (!wave.file.empty() && o.level != "systemc" && o.level != "systemc-clock")
-    throw scene::input_error("", 0, "--wave", "level " + o.level, "level systemc: only it has signals");
+  if (!wave.file.empty() && o.level == "reference")
+    throw scene::input_error("", 0, "--wave", "level reference",
+                             "a level of the array: only those have signals");
   if (!o.wave_window.empty()) parse_window(o.wave_window, wave);
   if (!o.wave_cells.empty()) wave.cells = parse_cells(o.wave_cells);
   return wave;
@@ -69,6 +70,7 @@ int run(RunOptions& o) {
     Progress progress(steps);
     result = study::simulate(*level.motion, steps, {&files, &progress}, stop_requested);
   }
+  if (level.port) level.port->finish();
   files.finish(result, *level.motion);
   fmt::print("{}: {}\n", p.inputs.scene.name, result.sentence);
   fmt::print("{}", study::text_of(study::run_tables(facts, *p.mesh, result, level.motion->ranges())));

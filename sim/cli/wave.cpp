@@ -1,65 +1,20 @@
 #include "sim/cli/wave.h"
 
-#include "sim/record/output_file.h"
-#include "sim/scene/input_error.h"
-#include "sim/scene/limits.h"
-
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
-#include <regex>
 #include <sysc/tracing/sc_tracing_ids.h>
 
 namespace hopmesh::cli {
 
-void parse_window(const std::string& text, WaveRequest& request) {
-  static const std::regex shape(R"((\d{0,18}):(\d{0,18})(c?))");
-  std::smatch part;
-  if (!std::regex_match(text, part, shape))
-    throw scene::input_error("", 0, "--wave-window", text, "FROM:TO in steps, or FROM:TOc in cycles");
-  request.first = part[1].length() ? std::stoull(part[1]) : 0;
-  request.last = part[2].length() ? std::stoull(part[2]) : UINT64_MAX;
-  request.in_cycles = part[3].length() > 0;
-  if (request.first >= request.last)
-    throw scene::input_error("", 0, "--wave-window", text, "a window that begins before it ends");
-}
-
-std::vector<std::size_t> parse_cells(const std::string& text) {
-  static const std::regex list(R"(\d{1,9}(-\d{1,9})?(,\d{1,9}(-\d{1,9})?)*)"), item(R"((\d+)(?:-(\d+))?)");
-  if (!std::regex_match(text, list))
-    throw scene::input_error("", 0, "--wave-cells", text, "cells like 0,4,10-12");
-  std::vector<std::size_t> cells;
-  for (auto at = std::sregex_iterator(text.begin(), text.end(), item); at != std::sregex_iterator(); ++at) {
-    const std::size_t first = std::stoul((*at)[1]), last = (*at)[2].matched ? std::stoul((*at)[2]) : first;
-    if (first > last || last >= static_cast<std::size_t>(scene::most_nodes))
-      throw scene::input_error("", 0, "--wave-cells", at->str(), "a rising range of cells that exist");
-    for (std::size_t c = first; c <= last; ++c) cells.push_back(c);
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq,
            systemc::Waking waking)
     : request_(std::move(request)), device_(device), irq_(irq), waking_(waking) {
-  const std::size_t cells = device.cells.topology().cells();
-  for (std::size_t c : request_.cells)
-    if (c >= cells)
-      throw scene::input_error("", 0, "--wave-cells", std::to_string(c),
-                               fmt::format("cells below {}", cells));
-  if (std::filesystem::is_directory(request_.file))
-    throw scene::input_error("", 0, "--wave", "the folder " + request_.file, "the name of a file");
-  const auto folder = std::filesystem::absolute(request_.file).parent_path();
-  record::check_writable(folder, 1 << 20);
+  check_wave(request_, device.cells.topology().cells());
   if (request_.in_cycles) walk({request_.first, request_.last});
 }
 
 Wave::~Wave() {
   if (file_) close();
-  if (began_ && !done_)
-    fmt::print(stderr, "hopmesh: {}: no wave, the run ended before the window began\n", request_.file);
+  if (began_ && !done_) tell_no_wave(request_);
 }
 
 void Wave::open() {
@@ -91,14 +46,10 @@ void Wave::walk(systemc::CycleWindow window) {
 }
 
 void Wave::mind_the_disk() {
-  constexpr std::uintmax_t least = 64u << 20; // more than a slice of a thousand cycles can write
-  if (!file_) return;
-  std::error_code error;
-  const auto space = std::filesystem::space(std::filesystem::absolute(request_.file).parent_path(), error);
-  if (error || space.available >= least) return;
+  if (!file_ || !disk_nearly_full(request_)) return;
   walk({});
   close();
-  trouble_ = request_.file + ": the wave ends early, its disk is nearly full (less than 64 MB left)";
+  trouble_ = ended_early(request_);
 }
 
 void Wave::begin_step(std::uint64_t step) {

@@ -1,25 +1,13 @@
-// A VCD wave of an array, for a window of steps or cycles and some of its cells.
+// A VCD wave of the SystemC array, for a window of steps or cycles and some of its cells.
 #pragma once
 
 #include "rtl_model/systemc/device.h"
+#include "sim/cli/wave_request.h"
 
 #include <optional>
 #include <string>
 
 namespace hopmesh::cli {
-
-/// What --wave, --wave-window and --wave-cells ask for.
-struct WaveRequest {
-  std::string file;                           ///< FILE.vcd; empty: no wave
-  bool in_cycles = false;                     ///< the window counts cycles of all runs so far, not steps
-  std::uint64_t first = 0, last = UINT64_MAX; ///< [first, last)
-  std::vector<std::size_t> cells;             ///< empty: all
-};
-
-/// "3:5" (steps), "1000:2000c" (cycles); either end may be left out. Throws scene::InputError.
-void parse_window(const std::string& text, WaveRequest& request);
-/// "0,4,10-12". Throws scene::InputError.
-std::vector<std::size_t> parse_cells(const std::string& text);
 
 /// Writes beside the final name and renames when closed. Walks the array by clock exactly while it is open.
 class Wave {

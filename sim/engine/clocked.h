@@ -37,6 +37,7 @@ class ClockedEngine {
   /// Of the run, up to now: whole sweeps, and what the last of them came to; cycles of the clock.
   const RunResult& result() const { return result_; }
   const spec::CycleModel& cycles() const { return cycles_; }
+  const spec::Formats& formats() const { return plan_.formats; } ///< with the accumulator as built
   const spec::Phases& phases() const { return phases_; }
   const spec::Topology& topology() const { return topology_; }
 

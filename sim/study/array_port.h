@@ -28,6 +28,8 @@ class ArrayPort {
   /// Called around each step with its number, for waves.
   virtual void begin_step(std::uint64_t) {}
   virtual void end_step(std::uint64_t) {}
+  /// After the last step: what is still being written is ended.
+  virtual void finish() {}
   /// Signals that no bus shows: s and u.
   virtual std::vector<SignalRange> inner_ranges() const { return {}; }
   /// What went wrong without touching the results, in one line: a wave that could not be written.

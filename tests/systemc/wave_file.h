@@ -21,7 +21,8 @@ inline std::string content(const fs::path& file) {
   return all.str();
 }
 
-class WaveFile : public testing::Test {
+/// At the level that the test is for.
+class WaveFile : public testing::TestWithParam<std::string> {
  protected:
   WaveFile() {
     char name[] = "/tmp/hopmesh-wave-XXXXXX";
@@ -30,15 +31,16 @@ class WaveFile : public testing::Test {
   ~WaveFile() override { fs::remove_all(folder); }
 
   /// Exit code of `hopmesh run ...` in the test's folder.
-  int run(const std::string& arguments) {
-    const std::string command = "cd " + folder.string() + " && '" HOPMESH_PROGRAM "' run --level systemc " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
+  int run(const std::string& arguments, const std::string& level = "", const std::string& before = "") {
+    const std::string command = "cd " + folder.string() + " && " + before + "'" HOPMESH_PROGRAM "' run " +
+                                arguments + " --level " + (level.empty() ? GetParam() : level) +
+                                " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   /// A run with a wave, which must end well and say nothing on stderr.
-  Vcd wave(const std::string& arguments) {
-    EXPECT_EQ(run(arguments + " --no-check --out r --wave w.vcd"), 0) << arguments;
+  Vcd wave(const std::string& arguments, const std::string& level = "") {
+    EXPECT_EQ(run(arguments + " --no-check --out r --wave w.vcd", level), 0) << arguments;
     EXPECT_EQ(content(folder / "err.txt"), "") << arguments;
     return read_vcd(folder / "w.vcd");
   }

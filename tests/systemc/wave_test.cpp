@@ -9,7 +9,7 @@
 namespace hopmesh::tests {
 namespace {
 
-TEST_F(WaveFile, ShowsEveryRegisterOfTheModelOnce) {
+TEST_P(WaveFile, ShowsEveryRegisterOfTheModelOnce) {
   const Vcd vcd = wave(nine + " --steps 1");
   for (std::size_t cell = 0; cell < 8; ++cell)
     for (std::size_t p = 0; p < 3; ++p) {
@@ -23,13 +23,13 @@ TEST_F(WaveFile, ShowsEveryRegisterOfTheModelOnce) {
   EXPECT_EQ(vcd.signals.size(), 8u * 3 * 5 + 6);
 }
 
-TEST_F(WaveFile, OfSomeCellsHoldsOnlyThose) {
+TEST_P(WaveFile, OfSomeCellsHoldsOnlyThose) {
   const Vcd vcd = wave(nine + " --steps 1 --wave-cells 1,5-6,5");
   EXPECT_EQ(vcd.signals.size(), 3u * 3 * 5 + 6);
   for (std::size_t cell : {1u, 5u, 6u}) EXPECT_NO_THROW(vcd.at(neuron(cell, 0) + ".output.V"));
 }
 
-TEST_F(WaveFile, EndsWithTheOutputsOfTheRun) {
+TEST_P(WaveFile, EndsWithTheOutputsOfTheRun) {
   const Vcd vcd = wave(nine + " --steps 3");
   const auto codes = last_codes(9 * 3); // node 0 is pinned
   std::size_t moved = 0;
@@ -41,7 +41,7 @@ TEST_F(WaveFile, EndsWithTheOutputsOfTheRun) {
   EXPECT_GT(moved, 8u);
 }
 
-TEST_F(WaveFile, ChangesNoBitOfTheRun) {
+TEST_P(WaveFile, ChangesNoBitOfTheRun) {
   wave(nine + " --steps 4");
   const auto with = column("hash");
   const auto with_cycles = cycles();
@@ -51,13 +51,13 @@ TEST_F(WaveFile, ChangesNoBitOfTheRun) {
   EXPECT_EQ(cycles(), with_cycles);
 }
 
-TEST_F(WaveFile, IsNotLeftBehindHalfWritten) {
+TEST_P(WaveFile, IsNotLeftBehindHalfWritten) {
   const pid_t child = fork();
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(1);
     std::freopen("/dev/null", "w", stdout);
     execl(HOPMESH_PROGRAM, "hopmesh", "run", "flag-400", "--no-check", "--out", "r", "--wave", "w.vcd",
-          nullptr);
+          "--level", GetParam().c_str(), nullptr);
     _exit(1);
   }
   const auto growing = [&] {
@@ -74,7 +74,7 @@ TEST_F(WaveFile, IsNotLeftBehindHalfWritten) {
   EXPECT_FALSE(fs::exists(folder / "w.vcd"));
 }
 
-TEST_F(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
+TEST_P(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
   std::size_t refused = 0;
   for (const char* bad :
        {"--wave-window 5:5", "--wave-window 7:3", "--wave-window 3", "--wave-window a:b",
@@ -91,6 +91,9 @@ TEST_F(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
   }
   EXPECT_EQ(refused, 18u);
 }
+
+INSTANTIATE_TEST_SUITE_P(At, WaveFile, testing::Values("systemc", "engine"),
+                         [](const auto& level) { return level.param; });
 
 } // namespace
 } // namespace hopmesh::tests

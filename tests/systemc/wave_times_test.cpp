@@ -19,14 +19,14 @@ void expect_edges(const Vcd& vcd, std::uint64_t count, std::uint64_t clock) {
   for (std::uint64_t edge : edges) ASSERT_EQ(edge % clock, 0u) << edge;
 }
 
-TEST_F(WaveFile, HasAnEdgeForEveryCycleOfTheRun) {
+TEST_P(WaveFile, HasAnEdgeForEveryCycleOfTheRun) {
   const Vcd vcd = wave(nine + " --steps 3");
   expect_edges(vcd, sum(cycles()), period);
   EXPECT_EQ(vcd.at(".device.irq").rises().size(), 3u);
   EXPECT_EQ(vcd.at(".sequencer.busy").last(), 0);
 }
 
-TEST_F(WaveFile, HasThemAtAnyClock) {
+TEST_P(WaveFile, HasThemAtAnyClock) {
   for (const auto& [mhz, clock] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"1000", 1000}, {"333", 3003}, {"3", 333333}, {"0.001", 1000000000}}) {
     SCOPED_TRACE(mhz + " MHz");
@@ -35,7 +35,7 @@ TEST_F(WaveFile, HasThemAtAnyClock) {
   }
 }
 
-TEST_F(WaveFile, WindowsOfStepsHoldTheirStepsOnly) {
+TEST_P(WaveFile, WindowsOfStepsHoldTheirStepsOnly) {
   wave(nine + " --steps 4");
   const auto all = cycles();
   ASSERT_EQ(all.size(), 4u);
@@ -48,7 +48,7 @@ TEST_F(WaveFile, WindowsOfStepsHoldTheirStepsOnly) {
 }
 
 /// Wherever a window of cycles begins and ends: in a phase, at an end of one, at the ends of runs.
-TEST_F(WaveFile, WindowsOfCyclesHoldTheirCyclesOnly) {
+TEST_P(WaveFile, WindowsOfCyclesHoldTheirCyclesOnly) {
   wave(nine + " --steps 3");
   const auto all = cycles();
   const std::uint64_t one = all[0], two = all[0] + all[1], total = sum(all);
@@ -75,7 +75,7 @@ TEST_F(WaveFile, WindowsOfCyclesHoldTheirCyclesOnly) {
   }
 }
 
-TEST_F(WaveFile, OutputsChangeOnEdgesOnly) {
+TEST_P(WaveFile, OutputsChangeOnEdgesOnly) {
   const Vcd vcd = wave(nine + " --steps 1");
   const auto edges = vcd.at(".sequencer.clock").rises();
   for (std::size_t k = 0; k < 24; ++k)
@@ -85,13 +85,16 @@ TEST_F(WaveFile, OutputsChangeOnEdgesOnly) {
           << c.picoseconds;
 }
 
-TEST_F(WaveFile, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
+TEST_P(WaveFile, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
   for (const char* bad : {"3-1", "0-999999999"}) {
     EXPECT_EQ(run(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad), 2) << bad;
     const std::string told = content(folder / "err.txt");
     EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(At, WaveFile, testing::Values("systemc", "engine"),
+                         [](const auto& level) { return level.param; });
 
 } // namespace
 } // namespace hopmesh::tests
