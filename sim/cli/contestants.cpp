@@ -25,7 +25,8 @@ SharedBus bus_of(const std::shared_ptr<study::ArrayPort>& port) {
 Contestant engine_contestant(const std::string& name, const engine::Options& options, std::uint64_t one_in) {
   const auto make = [options](const cosim::ArrayJob& job) -> SharedBus {
     try {
-      return bus_of(std::make_shared<EnginePort>(job.array, job.topology, options, stop_requested));
+      return bus_of(
+          std::make_shared<EnginePort>(job.array, job.topology, options, WaveRequest{}, stop_requested));
     } catch (const std::invalid_argument&) { // not on this processor, or not for this array
       return nullptr;
     }
