@@ -1,5 +1,6 @@
 #include "sim/cli/engine_wave.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace hopmesh::cli {
@@ -8,7 +9,7 @@ namespace {
 
 /// Picoseconds, rounded as sc_time rounds them.
 std::uint64_t period_of(const spec::ArraySpec& array) {
-  return static_cast<std::uint64_t>(1.0 / array.clock_mhz * 1e6 + 0.5);
+  return static_cast<std::uint64_t>(std::llround(1.0 / array.clock_mhz * 1e6));
 }
 
 } // namespace
