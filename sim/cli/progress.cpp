@@ -8,8 +8,8 @@ namespace hopmesh::cli {
 
 using Clock = std::chrono::steady_clock;
 
-Progress::Progress(std::uint64_t steps)
-    : steps_(steps), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
+Progress::Progress(std::uint64_t steps, std::uint64_t before)
+    : steps_(steps), before_(before), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
 
 Progress::~Progress() {
   if (shown_) fmt::print(stderr, "\r\033[K");
@@ -26,11 +26,16 @@ void Progress::step(const study::StepRow& row) {
   draw(row, now);
 }
 
+void Progress::say(const std::string& line) {
+  fmt::print(stderr, "{}{}\n", shown_ ? "\r\033[K" : "", line);
+  drawn_ = {};
+}
+
 void Progress::draw(const study::StepRow& row, Clock::time_point now) {
   constexpr std::size_t width = 32;
   const std::uint64_t done = row.step + 1;
   const double seconds = std::chrono::duration<double>(now - began_).count();
-  const double left = seconds / static_cast<double>(done) * static_cast<double>(steps_ - done);
+  const double left = seconds / static_cast<double>(done - before_) * static_cast<double>(steps_ - done);
   const std::size_t full = width * done / steps_;
   fmt::print(stderr, "\r\033[K[{:=<{}}{:<{}}] step {} of {}, {} sweeps, strain {:.0f} %, {:.0f} s left", "",
              full, "", width - full, done, steps_, row.sweeps, 100 * row.max_strain, left);

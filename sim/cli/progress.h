@@ -9,18 +9,21 @@ namespace hopmesh::cli {
 
 class Progress : public study::StepSink {
  public:
-  explicit Progress(std::uint64_t steps);
+  /// `before`: how many of the steps were done by an earlier process.
+  explicit Progress(std::uint64_t steps, std::uint64_t before = 0);
   ~Progress() override;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void step(const study::StepRow& row, const study::Motion& motion) override;
   void step(const study::StepRow& row);
+  /// A line on stderr, terminal or not; the bar gives way.
+  void say(const std::string& line);
 
  private:
   void draw(const study::StepRow& row, std::chrono::steady_clock::time_point now);
 
-  const std::uint64_t steps_;
+  const std::uint64_t steps_, before_;
   const bool shown_;
   std::chrono::steady_clock::time_point began_, drawn_;
 };

@@ -18,6 +18,9 @@ namespace hopmesh::record {
 class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header);
+  /// Goes on behind the rows that are there.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, StreamRest rest)
+      : file_(path, std::move(rest)), columns_(header.size()) {}
 
   CsvWriter& cell(double value);
   CsvWriter& cell(std::string_view text);
@@ -29,6 +32,7 @@ class CsvWriter {
   }
   void end_row(); ///< throws std::logic_error if the row has more or fewer cells than the header
   void row(const std::vector<double>& values);
+  StreamMark sync() { return file_.sync(); }
   void commit() { file_.commit(); }
 
  private:

@@ -50,13 +50,27 @@ std::vector<std::size_t> parse_shape(const std::string& text) {
   return shape;
 }
 
+std::size_t product(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
 } // namespace
 
 template <class T>
 NpyWriter<T>::NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape)
-    : file_(path), row_shape_(row_shape),
-      row_size_(std::accumulate(row_shape.begin(), row_shape.end(), std::size_t{1}, std::multiplies<>())) {
-  file_.write(header<T>(0, row_shape));
+    : file_(path), row_shape_(row_shape), row_size_(product(row_shape)) {
+  file_.write(head(row_shape));
+}
+
+template <class T>
+NpyWriter<T>::NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape,
+                        StreamRest rest)
+    : file_(path, std::move(rest)), row_shape_(row_shape), row_size_(product(row_shape)) {
+  rows_ = (file_.bytes() - header_bytes) / (row_size_ * sizeof(T));
+}
+
+template <class T> std::string NpyWriter<T>::head(const std::vector<std::size_t>& row_shape) {
+  return header<T>(0, row_shape);
 }
 
 template <class T> void NpyWriter<T>::append(const T* row) {

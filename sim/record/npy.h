@@ -20,8 +20,13 @@ namespace hopmesh::record {
 template <class T> class NpyWriter {
  public:
   NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape);
+  /// Goes on behind the rows that are there.
+  NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape, StreamRest rest);
+  /// What a file of such rows begins with while it is written.
+  static std::string head(const std::vector<std::size_t>& row_shape);
   void append(const T* row); ///< one row
   void append(const std::vector<T>& row);
+  StreamMark sync() { return file_.sync(); }
   void commit();
   std::size_t rows() const { return rows_; }
 

@@ -82,41 +82,60 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) fail("cannot write", EISDIR);
   if (!written_in_place(path_)) {
-    part_ = path_;
-    part_ += ".part";
-    open_part();
+    part_ = part_of(path_);
+    open_part(part_);
+    cut(0);
   } else if ((fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC)) < 0) {
     fail("cannot write", errno);
   }
   buffer_.reserve(buffer_bytes);
 }
 
+// Wherever a process ends in here, the rest still begins as it was marked.
+OutputFile::OutputFile(std::filesystem::path path, StreamRest rest)
+    : path_(std::move(path)), part_(part_of(path_)), keep_(true), bytes_(rest.bytes),
+      check_(std::move(rest.check)) {
+  open_part(rest.found);
+  if (rest.found != part_ && ::rename(rest.found.c_str(), part_.c_str()) != 0) {
+    const int error = errno;
+    ::close(std::exchange(fd_, -1));
+    fail("cannot take up again", error);
+  }
+  cut(rest.bytes);
+  buffer_.reserve(buffer_bytes);
+  patch(0, rest.head);
+}
+
 /// What a killed run left is taken over; what a live run holds (its lock tells) is not.
-void OutputFile::open_part() {
+void OutputFile::open_part(const std::filesystem::path& place) {
   while (true) {
-    fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    fd_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (fd_ < 0) fail("cannot create", errno);
     if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(std::exchange(fd_, -1));
       throw WriteError(fmt::format("{}: another run is writing this file", path_.string()));
     }
-    if (same_file(fd_, part_)) break; // else its owner renamed it between our open and our lock: try again
+    if (same_file(fd_, place)) break; // else its owner renamed it between our open and our lock: try again
     ::close(std::exchange(fd_, -1));
   }
-  if (::ftruncate(fd_, 0) != 0) {
-    const int error = errno;
-    ::close(std::exchange(fd_, -1));
-    fail("cannot empty", error);
-  }
+}
+
+void OutputFile::cut(std::uint64_t bytes) {
+  const auto end = static_cast<off_t>(bytes);
+  if (::ftruncate(fd_, end) == 0 && ::lseek(fd_, end, SEEK_SET) == end) return;
+  const int error = errno;
+  ::close(std::exchange(fd_, -1));
+  fail(bytes == 0 ? "cannot empty" : "cannot cut", error);
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)), part_(std::move(other.part_)), fd_(std::exchange(other.fd_, -1)),
-      buffer_(std::move(other.buffer_)) {}
+      keep_(other.keep_), buffer_(std::move(other.buffer_)), bytes_(other.bytes_),
+      check_(std::move(other.check_)) {}
 
 OutputFile::~OutputFile() {
   if (fd_ < 0) return;
-  if (!part_.empty()) ::unlink(part_.c_str());
+  if (!part_.empty() && !keep_) ::unlink(part_.c_str());
   ::close(fd_);
 }
 
@@ -127,17 +146,33 @@ void OutputFile::fail(const char* what, int error) const {
 void OutputFile::write(const void* data, std::size_t bytes) {
   if (fd_ < 0) fail("cannot write", EBADF);
   if (buffer_.size() + bytes > buffer_bytes) flush();
-  if (bytes < buffer_bytes) {
+  if (bytes < buffer_bytes)
     buffer_.append(static_cast<const char*>(data), bytes);
-  } else if (const int error = write_all(fd_, static_cast<const char*>(data), bytes)) {
-    fail("cannot write", error);
-  }
+  else
+    put(static_cast<const char*>(data), bytes);
 }
 
+void OutputFile::put(const char* data, std::size_t bytes) {
+  if (const int error = write_all(fd_, data, bytes)) fail("cannot write", error);
+  check_.add(data, bytes);
+  bytes_ += bytes;
+}
+
+// The buffer is empty afterwards even if the disk is full: nobody tries the same bytes twice.
 void OutputFile::flush() {
-  const int error = write_all(fd_, buffer_.data(), buffer_.size());
-  buffer_.clear();
-  if (error) fail("cannot write", error);
+  std::string waiting;
+  waiting.swap(buffer_);
+  put(waiting.data(), waiting.size());
+  waiting.clear();
+  buffer_.swap(waiting);
+}
+
+StreamMark OutputFile::sync() {
+  if (fd_ < 0) fail("cannot write", EBADF);
+  flush();
+  if (::fsync(fd_) != 0) fail("cannot write", errno);
+  keep_ = true;
+  return {bytes_, check_.value()};
 }
 
 void OutputFile::patch(std::uint64_t offset, std::string_view text) {

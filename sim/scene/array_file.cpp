@@ -145,4 +145,8 @@ spec::ArraySpec read_array(const std::string& array,
   return changed(named.value_or(spec::default_array()), source, named ? "" : array);
 }
 
+spec::ArraySpec array_of(const TomlSource& source, const std::string& file) {
+  return changed(spec::default_array(), source, file);
+}
+
 } // namespace hopmesh::scene

@@ -11,4 +11,7 @@ namespace hopmesh::scene {
 spec::ArraySpec read_array(const std::string& array,
                            const std::vector<std::pair<std::string, std::string>>& overrides);
 
+/// The array whose text stands in `file`.
+spec::ArraySpec array_of(const TomlSource& source, const std::string& file);
+
 } // namespace hopmesh::scene

@@ -51,6 +51,18 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
   return {read_scene(source, path), read_array(array, of_array)};
 }
 
+namespace {
+
+TomlSource placed(const PlacedText& text, const std::string& file) {
+  return TomlSource::of_text(std::string(static_cast<std::size_t>(text.line - 1), '\n') + text.text, file);
+}
+
+} // namespace
+
+Inputs inputs_of(const PlacedText& scene, const PlacedText& array, const std::string& file) {
+  return {read_scene(placed(scene, file), file), array_of(placed(array, file), file)};
+}
+
 std::string shipped_folder() {
   std::error_code ignored;
   // Beside an installed program first: an installation may have been moved, or the tree it came from be gone.

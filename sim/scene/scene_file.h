@@ -27,4 +27,11 @@ std::string shipped_folder();
 std::string scene_text(const Scene& scene);
 std::string array_text(const spec::ArraySpec& array);
 
+/// Reads both back. They stand in `file`, each from a line of its own on, which messages name.
+struct PlacedText {
+  std::string text;
+  int line = 1;
+};
+Inputs inputs_of(const PlacedText& scene, const PlacedText& array, const std::string& file);
+
 } // namespace hopmesh::scene

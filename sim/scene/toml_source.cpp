@@ -127,9 +127,13 @@ std::string describe(const TomlValue& value) {
 }
 
 TomlSource TomlSource::read(const std::string& path, const std::string& kind) {
+  return of_text(read_whole_file(path, kind, most_bytes), path);
+}
+
+TomlSource TomlSource::of_text(const std::string& text, const std::string& path) {
   TomlSource source;
   source.path_ = path;
-  const toml::table root = parse(read_whole_file(path, kind, most_bytes), path);
+  const toml::table root = parse(text, path);
   Flattening{path, false, source.values_}.table(root, "", 0);
   return source;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <xxhash.h>
 
 namespace hopmesh::study {
 
@@ -61,6 +60,7 @@ void ArrayMotion::open() {
 StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
+  rest_ = memory_.output;
   if (check_)
     check_->begin(memory_.position.data(), memory_.velocity.data(), memory_.acceleration.data(),
                   memory_.output, step);
@@ -68,7 +68,10 @@ StepRow ArrayMotion::advance() {
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
-  if (error == HM_ERROR_STOPPED) throw Stopped();
+  if (error == HM_ERROR_STOPPED) {
+    std::copy(rest_.begin(), rest_.end(), memory_.output.begin());
+    throw Stopped();
+  }
   if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
   if (error != HM_OK && error != HM_ERROR_LOST) throw std::runtime_error(error_text(error));
   port_.end_step(step);
@@ -87,7 +90,7 @@ StepRow ArrayMotion::advance() {
                                                            [](double V) { return std::fabs(V) >= 1; }));
   measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
   if (check_) row.error = check_->judge(memory_.state.network, memory_.start);
-  row.hash = hash();
+  row.hash = state_hash(memory_.position, memory_.velocity, memory_.acceleration, memory_.output);
   return row;
 }
 
@@ -111,14 +114,31 @@ std::vector<std::int32_t> ArrayMotion::raw(const std::vector<double>& outputs) c
 std::vector<SignalRange> ArrayMotion::ranges() const {
   auto all = profile_.ranges();
   for (const SignalRange& range : port_.inner_ranges()) all.push_back(range);
+  for (SignalRange& range : all)
+    for (const SignalRange& before : seen_) {
+      if (before.signal != range.signal) continue;
+      range.least = std::min(range.least, before.least);
+      range.largest = std::max(range.largest, before.largest);
+    }
   return all;
 }
 
-std::uint64_t ArrayMotion::hash() const {
-  std::uint64_t h = 0;
-  for (const auto* values : {&memory_.position, &memory_.velocity, &memory_.acceleration, &memory_.output})
-    h = XXH64(values->data(), values->size() * sizeof(double), h);
-  return h;
+StepState ArrayMotion::state() const {
+  return {memory_.state.step, memory_.position, memory_.velocity, memory_.acceleration, memory_.output};
+}
+
+// Values are copied into place: the firmware's pointers stay what they are.
+void ArrayMotion::restore(const StepState& state, const std::vector<SignalRange>& seen) {
+  memory_.state.step = state.step;
+  const auto copy = [](const std::vector<double>& from, std::vector<double>& to) {
+    if (from.size() != to.size()) throw std::logic_error("the state of another mesh");
+    std::copy(from.begin(), from.end(), to.begin());
+  };
+  copy(state.position, memory_.position);
+  copy(state.velocity, memory_.velocity);
+  copy(state.acceleration, memory_.acceleration);
+  copy(state.output, memory_.output);
+  seen_ = seen;
 }
 
 } // namespace hopmesh::study

@@ -18,6 +18,8 @@ class ArrayMotion : public Motion {
   const std::vector<double>& positions() const override { return memory_.position; }
   std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.output)); }
   std::vector<SignalRange> ranges() const override;
+  StepState state() const override;
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
 
   /// What the last step loaded: start as raw codes [cells * components].
   std::vector<std::int32_t> start_raw() const { return raw(memory_.start); }
@@ -28,7 +30,6 @@ class ArrayMotion : public Motion {
   void open();
   std::uint64_t bus_cycles() const;
   std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
-  std::uint64_t hash() const;
 
   const BuiltMesh& mesh_;
   ArrayPort& port_;
@@ -37,6 +38,8 @@ class ArrayMotion : public Motion {
   hm_motion motion_{};
   hm_driver driver_{};
   StepMemory memory_;
+  std::vector<double> rest_;      ///< V that the last good step left: the next one works in memory_.output
+  std::vector<SignalRange> seen_; ///< before restore()
   std::vector<std::uint32_t> buffer_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "sim/study/array_port.h"
 #include "sim/study/built_mesh.h"
+#include "sim/study/step_state.h"
 
 #include <optional>
 #include <stdexcept>
@@ -57,6 +58,11 @@ class Motion {
   /// V at rest as raw codes, [nodes * components]; empty at levels without codes.
   virtual std::vector<std::int32_t> outputs_raw() const { return {}; }
   virtual std::vector<SignalRange> ranges() const { return {}; }
+
+  /// As the last good step left it.
+  virtual StepState state() const = 0;
+  /// Goes on from the state of another motion of the same scene and level; `seen`: its ranges until then.
+  virtual void restore(const StepState& state, const std::vector<SignalRange>& seen) = 0;
 };
 
 /// Elastic energy, kinetic energy, strain and stretch of a state into a row; x, v: [nodes * 3].

@@ -1,7 +1,6 @@
 #include "sim/study/reference_motion.h"
 
 #include <cmath>
-#include <xxhash.h>
 
 namespace hopmesh::study {
 
@@ -26,9 +25,30 @@ StepRow ReferenceMotion::advance() {
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
-  for (const auto* values : {&state_.position, &state_.velocity, &state_.acceleration, &state_.V})
-    row.hash = XXH64(values->data(), static_cast<std::size_t>(values->size()) * sizeof(double), row.hash);
+  row.hash = state_hash(state_.position, state_.velocity, state_.acceleration, state_.V);
   return row;
+}
+
+StepState ReferenceMotion::state() const {
+  const auto values = [](const reference::Vector& v) {
+    return std::vector<double>(v.data(), v.data() + v.size());
+  };
+  return {state_.step, values(state_.position), values(state_.velocity), values(state_.acceleration),
+          values(state_.V)};
+}
+
+void ReferenceMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
+  const auto copy = [](const std::vector<double>& from, reference::Vector& to) {
+    if (static_cast<Eigen::Index>(from.size()) != to.size())
+      throw std::logic_error("the state of another mesh");
+    std::copy(from.begin(), from.end(), to.data());
+  };
+  state_.step = state.step;
+  copy(state.position, state_.position);
+  copy(state.velocity, state_.velocity);
+  copy(state.acceleration, state_.acceleration);
+  copy(state.output, state_.V);
+  position_ = state.position;
 }
 
 } // namespace hopmesh::study

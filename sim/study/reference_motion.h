@@ -13,6 +13,8 @@ class ReferenceMotion : public Motion {
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return position_; }
+  StepState state() const override;
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
   /// The network of the last step; valid after advance().
   const reference::Step& last_step() const { return last_; }
 

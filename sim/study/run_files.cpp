@@ -4,6 +4,7 @@
 #include "sim/record/report.h"
 #include "sim/study/array_info.h"
 #include "sim/study/run_picture.h"
+#include "sim/study/step_table.h"
 #include "study_version.h"
 
 #include <algorithm>
@@ -18,17 +19,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const std::vector<std::string> columns{
-    "step",       "time",          "sweeps",      "cycles",     "energy",  "kinetic",      "max_strain",
-    "saturated",  "converged",     "max_stretch", "bus_cycles", "clipped", "output_error", "output_error_rms",
-    "energy_gap", "network_error", "hash"};
-
 // Fails before the first step, not after the last: the folder, and room for what will be written there.
-std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts,
-                            const BuiltMesh& mesh) {
+std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
+                            std::uint64_t done) {
   const std::uint64_t a_step = mesh.nodes() * (24 + (facts.fixed ? 4 * mesh.components() : 0)) + 300;
-  record::check_writable(folder, a_step * static_cast<std::uint64_t>(facts.inputs.scene.motion.steps + 1) +
-                                     mesh.nodes() * 8192 + (4u << 20));
+  record::check_writable(folder,
+                         a_step * (static_cast<std::uint64_t>(facts.inputs.scene.motion.steps) - done + 1) +
+                             mesh.nodes() * 8192 + (4u << 20));
   return folder;
 }
 
@@ -80,37 +77,40 @@ Totals totals_of(const RunResult& result, const BuiltMesh& mesh) {
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
                    const Motion& motion)
-    : folder_(ready(folder, facts, mesh)), facts_(facts), mesh_(mesh),
-      positions_(folder / "positions.npy", std::vector<std::size_t>{mesh.nodes(), 3}),
-      table_(folder / "steps.csv", columns) {
-  if (facts.fixed)
-    outputs_.emplace(folder / "outputs_raw.npy", std::vector<std::size_t>{mesh.nodes(), mesh.components()});
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), lock_(folder),
+      positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
+  if (facts.fixed) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
   positions_.append(motion.positions());
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
+                   RunStreams streams)
+    : folder_(ready(folder, facts, mesh, streams.steps)), facts_(facts), mesh_(mesh),
+      lock_(std::move(streams.lock)),
+      positions_(folder / "positions.npy", place_shape(), std::move(streams.positions)),
+      table_(folder / "steps.csv", step_columns(), std::move(streams.table)) {
+  if (streams.outputs)
+    outputs_.emplace(folder / "outputs_raw.npy", code_shape(), std::move(*streams.outputs));
 }
 
 void RunFiles::step(const StepRow& row, const Motion& motion) {
   positions_.append(motion.positions());
   if (outputs_) outputs_->append(motion.outputs_raw());
-  table_.cell(row.step).cell(row.time).cell(row.sweeps).cell(row.cycles).cell(row.energy).cell(row.kinetic);
-  table_.cell(row.max_strain).cell(row.saturated).cell(row.converged).cell(row.max_stretch);
-  table_.cell(row.bus_cycles).cell(row.clipped);
-  if (row.error)
-    table_.cell(row.error->largest_output)
-        .cell(row.error->rms_output)
-        .cell(row.error->energy_gap)
-        .cell(row.error->network);
-  else
-    table_.cell("").cell("").cell("").cell("");
-  table_.cell(fmt::format("{:016x}", row.hash)).end_row();
+  write_row(table_, row);
+}
+
+std::vector<NamedMark> RunFiles::sync() {
+  std::vector<NamedMark> marks{{"positions.npy", positions_.sync()}, {"steps.csv", table_.sync()}};
+  if (outputs_) marks.push_back({"outputs_raw.npy", outputs_->sync()});
+  return marks;
 }
 
 void RunFiles::finish(const RunResult& result, const Motion& motion) {
   positions_.commit();
-  std::error_code none; // what an earlier run at a level with codes left here is not of this run
   if (outputs_)
     outputs_->commit();
-  else
-    std::filesystem::remove(folder_ / "outputs_raw.npy", none);
+  else // what an earlier run at a level with codes left here is not of this run
+    discard("outputs_raw.npy");
   table_.commit();
   const std::string what = manifest(result);
   record::write_file(folder_ / "manifest.json", what);
@@ -124,6 +124,14 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
       view.tables.push_back(table);
   record::write_report(view, folder_ / "report.html");
   record::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
+  if (result.outcome == Outcome::interrupted) return;
+  discard(checkpoint_name); // last: until here a killed run can be resumed
+}
+
+// The part first: a kill in between leaves no more than a kill before.
+void RunFiles::discard(const std::string& name) const {
+  std::error_code none;
+  for (const char* part : {".part", ""}) std::filesystem::remove(folder_ / (name + part), none);
 }
 
 std::string RunFiles::statistics(const RunResult& result, const Motion& motion) const {
@@ -172,7 +180,8 @@ std::string RunFiles::manifest(const RunResult& result) const {
             {"commit", commit},
             {"compiler", compiler},
             {"build_type", build_type},
-            {"command", facts_.command},
+            {"command",
+             facts_.command + (facts_.asked_steps > 0 ? fmt::format(" --steps {}", facts_.asked_steps) : "")},
             {"level", facts_.level},
             {"seed", nullptr}, // nothing in a run is drawn at random
             {"outcome", name_of(result.outcome)},

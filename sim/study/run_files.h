@@ -3,10 +3,8 @@
 
 #include "sim/record/csv.h"
 #include "sim/record/npy.h"
-#include "sim/scene/scene_file.h"
+#include "sim/study/resume.h"
 #include "sim/study/simulation.h"
-
-#include <filesystem>
 
 namespace hopmesh::study {
 
@@ -14,8 +12,10 @@ namespace hopmesh::study {
 struct RunFacts {
   scene::Inputs inputs;
   std::string level;
-  bool fixed = false;  ///< a level with raw codes and cycles
-  std::string command; ///< that repeats the run
+  bool fixed = false;            ///< a level with raw codes and cycles
+  std::string command;           ///< that repeats the run, but for its --steps
+  std::uint64_t asked_steps = 0; ///< --steps; 0: as many as the scene says
+  bool check = false;            ///< the reference is asked
 };
 
 /// Totals of a run, as printed and as kept in stats.json.
@@ -27,25 +27,41 @@ struct Totals {
 };
 Totals totals_of(const RunResult& result, const BuiltMesh& mesh);
 
-/// Streams positions.npy, outputs_raw.npy and steps.csv; nothing has its final name before finish().
+/// Streams positions.npy, outputs_raw.npy and steps.csv; nothing has its final name before finish(). Holds
+/// the folder against other runs.
 class RunFiles : public StepSink {
  public:
   /// Makes the folder and makes sure, before any work, that the results can be written: throws
   /// record::WriteError.
   RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
            const Motion& motion);
+  /// Goes on with what a killed or stopped run left there.
+  RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
+           RunStreams streams);
 
   void step(const StepRow& row, const Motion& motion) override;
-  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb and report.html.
+  /// All steps so far are on the disk; how far that is.
+  std::vector<NamedMark> sync();
+  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb and report.html. A checkpoint
+  /// stays only where there is something to go on with.
   void finish(const RunResult& result, const Motion& motion);
 
+  const std::filesystem::path& folder() const { return folder_; }
+  const RunFacts& facts() const { return facts_; }
+  const BuiltMesh& mesh() const { return mesh_; }
+
  private:
+  void discard(const std::string& name) const;
   std::string statistics(const RunResult& result, const Motion& motion) const;
   std::string manifest(const RunResult& result) const;
+
+  std::vector<std::size_t> place_shape() const { return {mesh_.nodes(), 3}; }
+  std::vector<std::size_t> code_shape() const { return {mesh_.nodes(), mesh_.components()}; }
 
   const std::filesystem::path folder_;
   const RunFacts facts_;
   const BuiltMesh& mesh_;
+  const record::FolderLock lock_;
   record::NpyWriter<double> positions_;
   std::optional<record::NpyWriter<std::int32_t>> outputs_;
   record::CsvWriter table_;

@@ -34,10 +34,10 @@ bool one_step(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>&
 } // namespace
 
 RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
-                   const std::atomic<bool>& stop) {
+                   const std::atomic<bool>& stop, RunResult earlier) {
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
-  RunResult result;
+  RunResult result = std::move(earlier);
   result.sentence = fmt::format("All {} steps done.", steps);
   while (result.rows.size() < steps) {
     if (stop) result.outcome = Outcome::interrupted;
@@ -46,7 +46,7 @@ RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSi
   if (result.outcome == Outcome::interrupted)
     result.sentence = fmt::format("Interrupted after {} of {} steps; their results are complete.",
                                   result.rows.size(), steps);
-  result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  result.wall_seconds += std::chrono::duration<double>(Clock::now() - began).count();
   return result;
 }
 

@@ -26,8 +26,9 @@ class StepSink {
   virtual void step(const StepRow& row, const Motion& motion) = 0;
 };
 
-/// Advances `motion` by `steps`. Sinks see each step in turn; `stop` is looked at between steps.
+/// Advances `motion` until `steps` are done, those of `earlier` among them (their rows, their time). Sinks
+/// see each new step in turn; `stop` is looked at between steps.
 RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
-                   const std::atomic<bool>& stop);
+                   const std::atomic<bool>& stop, RunResult earlier = {});
 
 } // namespace hopmesh::study

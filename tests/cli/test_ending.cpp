@@ -102,7 +102,7 @@ TEST_F(CliEnding, TwoRunsDoNotWriteIntoOneFolder) {
   Program first(words_of(long_run), around);
   ASSERT_TRUE(first.wait_for("step 1 of"));
   around.terminal = false;
-  expect_refused(hopmesh(long_run), "another run is writing this file");
+  expect_refused(hopmesh(long_run), "another run is writing into this folder");
 }
 
 TEST_F(CliEnding, OutThatCannotBeWrittenIsRefusedBeforeTheRun) {

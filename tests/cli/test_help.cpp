@@ -53,7 +53,8 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
     for (const std::string& flag : flags) EXPECT_THAT(help, HasSubstr("--" + flag)) << verb;
     for (const char* flag : {"--array", "--set", "SCENE"}) EXPECT_THAT(help, HasSubstr(flag)) << verb;
   };
-  expect_flags("run", {"level", "steps", "out", "no-check", "wave", "wave-window", "wave-cells"});
+  expect_flags("run", {"level", "steps", "out", "no-check", "checkpoint-every", "resume", "wave",
+                       "wave-window", "wave-cells"});
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
   expect_flags("info", {"toml"});
