@@ -164,6 +164,13 @@ TEST(CheckWritable, MakesTheFolderAndLeavesItEmpty) {
   EXPECT_TRUE(std::filesystem::is_empty(folder / "deep/er"));
 }
 
+TEST(CheckWritable, ClearsAwayWhatAKilledProbeLeft) {
+  const Folder folder;
+  write_file(folder / ".writable", "");
+  check_writable(folder.path(), 0);
+  EXPECT_TRUE(folder.empty());
+}
+
 TEST(CheckWritable, TellsHowMuchSpaceIsMissing) {
   const Folder folder;
   const auto message = error_of([&] { check_writable(folder.path(), std::uint64_t{1} << 62); });

@@ -123,6 +123,13 @@ TEST_P(Resume, AnyFolderGoesOnToTheSameFiles) {
   }
 }
 
+TEST_P(Resume, ACheckpointThatAKillCutShortGoesWithTheRun) {
+  begin(4);
+  std::ofstream(out / "checkpoint.part") << "half";
+  go_on(6);
+  for (const auto& entry : fs::directory_iterator(out)) EXPECT_NE(entry.path().extension(), ".part");
+}
+
 TEST_P(Resume, RowsReadBackToTheSameBits) {
   begin(4);
   const auto found = study::read_run(out);
