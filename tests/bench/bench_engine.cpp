@@ -150,6 +150,7 @@ void register_all() {
   add("reference/double, Eigen", relax_reference);
   add("clocked/one by one", [](benchmark::State& s) { clocks(s, &ClockedFlag::step); });
   add("clocked/all registers copied", [](benchmark::State& s) { clocks(s, &ClockedFlag::step_and_copy); });
+  add("clocked/wave of all registers", [](benchmark::State& s) { clocks(s, &ClockedFlag::step_and_draw); });
   add("clocked/in strides", [](benchmark::State& s) { clocks(s, &ClockedFlag::stride); });
 }
 

@@ -55,6 +55,21 @@ std::int64_t ClockedFlag::step_and_copy(std::uint64_t clocks) {
   return outputs();
 }
 
+std::int64_t ClockedFlag::step_and_draw(std::uint64_t clocks) {
+  cli::WaveRequest request;
+  request.file = "/dev/null";
+  cli::ClockedVcd vcd(request, *engine_, 10000, false);
+  vcd.show_all(0);
+  for (std::uint64_t cycle = 1; cycle <= clocks; ++cycle) {
+    start_if_idle();
+    const int segment = engine_->segment();
+    engine_->step();
+    vcd.edge(2 * cycle, segment, false);
+  }
+  vcd.finish(2 * clocks + 2);
+  return outputs();
+}
+
 std::int64_t ClockedFlag::stride(std::uint64_t clocks) {
   while (clocks > 0) {
     start_if_idle();

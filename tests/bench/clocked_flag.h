@@ -2,7 +2,7 @@
 // same array.
 #pragma once
 
-#include "sim/engine/clocked.h"
+#include "sim/cli/clocked_vcd.h"
 #include "tests/bench/grid_network.h"
 
 #include <memory>
@@ -26,6 +26,8 @@ class ClockedFlag {
   std::int64_t step(std::uint64_t clocks);
   /// The same, all registers copied out after each clock.
   std::int64_t step_and_copy(std::uint64_t clocks);
+  /// The same, a wave of every register drawn (and thrown away: the disk is no part of this).
+  std::int64_t step_and_draw(std::uint64_t clocks);
   /// The same clocks, only the last of which shows.
   std::int64_t stride(std::uint64_t clocks);
 
