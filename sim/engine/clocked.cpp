@@ -1,5 +1,6 @@
 #include "sim/engine/clocked.h"
 
+#include "sim/engine/clocked_loops.h"
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"
 
@@ -45,6 +46,21 @@ void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
   enter(start_taken);
 }
 
+// Most clocks lie inside a phase and do little; these have a short way.
+void ClockedEngine::step() {
+  if (plain_.beat == nullptr || beat_ == 0 || beat_ + 1 >= length_) return step(1);
+  const ClockedBeat& b = plain_.beat[beat_];
+  if (b.rows > 0)
+    add_tap(plain_.weights + beat_ * plain_.weight_stride, plain_.inputs + beat_ * plain_.input_stride,
+            b.rows, plain_.sums);
+  if (b.first_normalised < b.last_normalised)
+    beats_.normalise(plain_.row + b.first_normalised, plain_.row + b.last_normalised);
+  if (b.first_pulled < b.last_pulled)
+    beats_.pull_to_bound(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
+  beat_ += 1;
+  result_.cycles += 1;
+}
+
 void ClockedEngine::step(std::uint64_t clocks) {
   while (clocks > 0 && segment_ != idle) {
     const std::uint64_t left = length_ - beat_, some = std::min(clocks, left);
@@ -60,12 +76,23 @@ void ClockedEngine::enter(int segment) {
   segment_ = segment;
   beat_ = 0;
   length_ = segment == prepare ? cycles_.prepare : 1;
+  plain_.beat = nullptr;
   if (segment < first_phase) return;
   const auto phase = static_cast<std::size_t>(segment - first_phase);
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
   length_ = cycles_.phase[phase];
   firing_ = {phase / per_cell, phase % per_cell, phase % per_cell + 1};
   if (plan_.schedule == spec::Schedule::synchronous) firing_ = {0, 0, per_cell};
+  if (!beats_.plain() || firing_.last_p > firing_.first_p + 1) return;
+  const ClockedBank& bank = layout_.banks[firing_.bank];
+  const std::size_t row = bank.first_row + firing_.first_p * bank.width;
+  plain_ = {bank.beat.data(),
+            &beats_.at.weight[bank.first_weight + firing_.first_p * bank.taps * bank.width],
+            beats_.inputs(),
+            &beats_.at.sum[row],
+            row,
+            bank.width,
+            bank.input_stride()};
 }
 
 void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {

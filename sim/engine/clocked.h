@@ -25,7 +25,7 @@ class ClockedEngine {
   /// START: cycle 0 is the one that now begins.
   void start(std::uint32_t threshold, std::uint32_t max_sweeps);
   /// One clock; nothing when idle.
-  void step() { step(1); }
+  void step();
   /// `clocks` of them, or up to the end of the run. Only what stands after the last is worked out.
   void step(std::uint64_t clocks);
 
@@ -77,6 +77,13 @@ class ClockedEngine {
   int segment_ = idle;
   std::uint64_t beat_ = 0, length_ = 0; ///< of the segment
   Firing firing_{0, 0, 0};
+  /// The phase at hand, where each clock is one tap of one stretch of rows: what step() then needs.
+  struct Plain {
+    const ClockedBeat* beat = nullptr;
+    const std::int32_t *weights = nullptr, *inputs = nullptr;
+    std::int64_t* sums = nullptr;
+    std::size_t row = 0, weight_stride = 0, input_stride = 0;
+  } plain_;
   bool done_ = false;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
   std::int64_t largest_ = 0; ///< |Delta V| of the sweep at hand: the convergence detector

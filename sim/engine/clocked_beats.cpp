@@ -13,7 +13,7 @@ ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
       to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)),
       plain_sums_(plan.exact && plan.product_up == 0), narrow_sums_(!plan.exact && plan.sum_up <= 52),
       per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
-      lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.inputs + lane_count, 0) {
+      lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.inputs, 0) {
   if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
   at.weight.assign(layout.weights, 0);
   at.bias.assign(layout.rows, 0);
@@ -54,12 +54,14 @@ void ClockedBeats::invert(const ClockedBank& bank) {
 }
 
 void ClockedBeats::take_links(const ClockedBank& bank, bool neighbours) {
-  std::copy_n(&at.link[bank.first_row], per_cell_ * bank.width, in_.data());
+  std::int32_t* inputs = in_.data();
+  for (std::size_t p = 0; p < per_cell_; ++p, inputs += bank.input_stride())
+    std::copy_n(&at.link[bank.first_row + p * bank.width], bank.width, inputs);
   if (!neighbours) return;
-  std::int32_t* inputs = &in_[per_cell_ * bank.width];
-  for (const std::vector<LinkRun>& runs : bank.runs)
-    for (std::size_t p = 0; p < per_cell_; ++p, inputs += bank.width)
-      copy_runs(at.link.data(), runs.data(), runs.size(), p, inputs);
+  for (const std::vector<LinkRun>& runs : bank.runs) {
+    copy_runs(at.link.data(), runs.data(), runs.size(), per_cell_, bank.input_stride(), inputs);
+    inputs += per_cell_ * bank.input_stride();
+  }
 }
 
 void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
@@ -70,44 +72,39 @@ void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
     at.sum[r] = limit_to_format(round_shift<Int128>(at.bias[r], plan_.bias_down, f.rounding), f);
 }
 
-namespace {
-
-void add_taps(const std::int32_t* weights, const std::int32_t* links, std::size_t stride, std::size_t taps,
-              std::size_t rows, std::int64_t* sums) {
-  std::size_t r = 0;
-  for (; taps > 1 && r + lane_count <= rows; r += lane_count)
-    add_products(weights + r, links + r, stride, taps, sums + r);
-  for (; taps > 0 && r < rows; --taps, weights += stride, links += stride)
-    add_tap(weights + r, links + r, rows - r, sums + r);
-}
-
-} // namespace
-
 // A rounding accumulator writes its register once a beat; an exact one may as well take all beats at once.
 void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64_t first,
                              std::uint64_t last) {
-  if (first >= bank.beats()) return;
-  std::int64_t* sums = &at.sum[bank.first_row + p * bank.width];
-  const std::int32_t* weights = &at.weight[bank.first_weight + p * bank.taps * bank.width];
-  const auto taps_until = [&](std::uint64_t beat) { return std::min<std::size_t>(beat * lanes_, bank.taps); };
-  if (plain_sums_) {
-    const std::size_t tap = first * lanes_, place = tap * bank.width;
-    return add_taps(weights + place, in_.data() + place, bank.width, taps_until(last) - tap,
-                    bank.reach[first], sums);
-  }
-  for (std::uint64_t beat = first; beat < last && beat < bank.beats(); ++beat) {
-    const std::size_t tap = beat * lanes_, place = tap * bank.width;
-    add_rounded(weights + place, in_.data() + place, bank.width, taps_until(beat + 1) - tap, bank.reach[beat],
-                sums);
+  last = std::min<std::uint64_t>(last, bank.beats());
+  const std::uint64_t together = plain_sums_ ? bank.beats() : 1;
+  for (std::uint64_t beat = first; beat < last; beat += together) {
+    const std::size_t tap = beat * lanes_,
+                      end = std::min(std::min(beat + together, last) * lanes_, bank.taps);
+    const Taps taps{&at.weight[bank.first_weight + (p * bank.taps + tap) * bank.width], bank.width,
+                    &in_[tap * bank.input_stride()], bank.input_stride(), end - tap};
+    std::int64_t* sums = &at.sum[bank.first_row + p * bank.width];
+    if (plain_sums_)
+      add(taps, 0, bank.reach[beat], sums);
+    else
+      add_rounded(taps, bank.reach[beat], sums);
   }
 }
 
-void ClockedBeats::add_rounded(const std::int32_t* weights, const std::int32_t* links, std::size_t stride,
-                               std::size_t taps, std::size_t rows, std::int64_t* sums) const {
+void ClockedBeats::add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums) {
+  const std::int32_t *weights = taps.weights + row, *inputs = taps.inputs + row;
+  std::size_t r = 0;
+  for (; taps.count > 1 && r + lane_count <= rows; r += lane_count)
+    add_products(weights + r, taps.weight_stride, inputs + r, taps.input_stride, taps.count, sums + r);
+  if (r == rows) return;
+  for (std::size_t t = 0; t < taps.count; ++t)
+    add_tap(weights + t * taps.weight_stride + r, inputs + t * taps.input_stride + r, rows - r, sums + r);
+}
+
+void ClockedBeats::add_rounded(const Taps& taps, std::size_t rows, std::int64_t* sums) const {
   for (std::size_t r = 0; r < rows; r += lane_count) {
     alignas(64) std::int64_t products[lane_count] = {};
     const std::size_t count = std::min(rows - r, lane_count);
-    add_taps(weights + r, links + r, stride, taps, count, products);
+    add(taps, r, count, products);
     if (narrow_sums_ && count == lane_count) {
       shift_and_add_lanes(sums + r, plan_.sum_up, products, plan_.product_up);
       round_lanes(sums + r, to_sum_);

@@ -37,12 +37,24 @@ class ClockedBeats {
   /// Rows [first, last).
   void normalise(std::size_t first, std::size_t last);
   void pull_to_bound(std::size_t first, std::size_t last);
+  /// Are beats of one tap that only add it to sums, and can be done by add_tap?
+  bool plain() const { return plain_sums_ && lanes_ == 1; }
+  const std::int32_t* inputs() const { return in_.data(); }
   /// The largest |Delta V|.
   std::int64_t publish(const ClockedBank& bank, std::size_t p);
 
  private:
-  void add_rounded(const std::int32_t* weights, const std::int32_t* links, std::size_t stride,
-                   std::size_t taps, std::size_t rows, std::int64_t* sums) const;
+  /// A group of taps: weights, what they weigh, and how far it is from a tap to the next.
+  struct Taps {
+    const std::int32_t* weights;
+    std::size_t weight_stride;
+    const std::int32_t* inputs;
+    std::size_t input_stride, count;
+  };
+
+  /// Rows [row, row + rows) of the taps; `sums` is that of the first.
+  static void add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums);
+  void add_rounded(const Taps& taps, std::size_t rows, std::int64_t* sums) const;
   std::int64_t rounded_sum(std::int64_t sum, std::int64_t products) const;
 
   const Plan& plan_;

@@ -1,6 +1,5 @@
 #include "sim/engine/clocked_layout.h"
 
-#include "sim/engine/lanes.h"
 #include "sim/engine/layout.h"
 
 namespace hopmesh::engine {
@@ -23,6 +22,18 @@ std::vector<std::vector<std::uint32_t>> cells_of_banks(const spec::Topology& t, 
   return banks;
 }
 
+// Rows of n beats accumulate in n, are normalised in as many as that takes, and pulled in the next.
+void list_beats(ClockedBank& bank, std::uint64_t normalise_cycles) {
+  const auto places = [](std::size_t number) { return static_cast<std::uint32_t>(number); };
+  const std::uint64_t length = bank.beats() + normalise_cycles + spec::output_cycles;
+  for (std::uint64_t b = 0; b < length; ++b) {
+    const auto over = static_cast<std::int64_t>(b) - static_cast<std::int64_t>(normalise_cycles);
+    const auto normalised = bank.with_beats(over + 1, over + 1), pulled = bank.with_beats(over, over);
+    bank.beat.push_back({b < bank.beats() ? places(bank.reach[b]) : 0, places(normalised.first),
+                         places(normalised.second), places(pulled.first), places(pulled.second)});
+  }
+}
+
 } // namespace
 
 // A bank of one cell is worked on row by row; all others in full lanes.
@@ -31,12 +42,13 @@ ClockedLayout::ClockedLayout(const spec::ArraySpec& array, const spec::Topology&
     : bank_of_cell(t.cells(), 0), place_of_cell(t.cells(), 0) {
   const std::size_t unit = array.schedule == spec::Schedule::sequential ? 1 : lane_count;
   const auto members = cells_of_banks(t, phases, array.schedule);
-  for (const auto& cells : members) place(cells, t, static_cast<std::size_t>(array.lanes), unit);
+  for (const auto& cells : members) place(cells, array, t, unit);
   find_runs(members, t);
 }
 
-void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::Topology& t, std::size_t lanes,
-                          std::size_t unit) {
+void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::ArraySpec& array,
+                          const spec::Topology& t, std::size_t unit) {
+  const auto lanes = static_cast<std::size_t>(array.lanes);
   const auto per_cell = static_cast<std::size_t>(t.neurons_per_cell);
   const auto beats_of = [&](std::uint32_t c) { return (t.taps(c) + lanes - 1) / lanes; };
   std::stable_sort(cells.begin(), cells.end(),
@@ -56,7 +68,8 @@ void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::Topology
   }
   rows += per_cell * bank.width;
   weights += per_cell * bank.taps * bank.width;
-  inputs = std::max(inputs, bank.taps * bank.width);
+  inputs = std::max(inputs, bank.taps * bank.input_stride());
+  list_beats(bank, spec::normalise_cycles(array));
   banks.push_back(std::move(bank));
 }
 

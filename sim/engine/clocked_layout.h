@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/engine/lanes.h"
 
 namespace hopmesh::engine {
 
@@ -10,6 +11,12 @@ namespace hopmesh::engine {
 /// row + p * width, ... of their neighbour's neuron p.
 struct LinkRun {
   std::uint32_t place, count, row, width;
+};
+
+/// What one beat of a bank's phase does: adds a group of taps to the first `rows` places, and works on the
+/// stretches [first, last) of those that are normalised, and pulled to their bound.
+struct ClockedBeat {
+  std::uint32_t rows, first_normalised, last_normalised, first_pulled, last_pulled;
 };
 
 /// The cells of a colour, one cell (sequential), or all cells (synchronous): those whose neurons fire in the
@@ -21,10 +28,13 @@ struct ClockedBank {
   std::size_t first_weight = 0; ///< of [p][tap][place]
   /// reach[b]: places whose rows have more than b beats. Rows of exactly b beats: [reach[b], reach[b - 1]).
   std::vector<std::size_t> reach;
+  std::vector<ClockedBeat> beat; ///< of its phases, clock by clock
   /// For each neighbour, all places. One that has fewer reads its own rows, and weighs them with zero.
   std::vector<std::vector<LinkRun>> runs;
 
   std::size_t beats() const { return reach.size() - 1; }
+  /// From the inputs of a tap to those of the next: room for what copy_runs writes too much.
+  std::size_t input_stride() const { return width + lane_count; }
   /// Places whose rows have from `least` to `most` beats, as a stretch [first, last).
   std::pair<std::size_t, std::size_t> with_beats(std::int64_t least, std::int64_t most) const {
     least = least < 1 ? 1 : least;
@@ -38,7 +48,7 @@ struct ClockedLayout {
   ClockedLayout(const spec::ArraySpec& array, const spec::Topology& topology, const spec::Phases& phases);
 
   std::size_t rows = 0, weights = 0;
-  std::size_t inputs = 0; ///< taps times places, of the bank that has most
+  std::size_t inputs = 0; ///< codes that the bank with most inputs reads
   std::vector<ClockedBank> banks;
   std::vector<std::uint32_t> bank_of_cell, place_of_cell;
 
@@ -53,7 +63,7 @@ struct ClockedLayout {
 
  private:
   /// `unit`: places are handed out in multiples of it.
-  void place(std::vector<std::uint32_t> cells, const spec::Topology& topology, std::size_t lanes,
+  void place(std::vector<std::uint32_t> cells, const spec::ArraySpec& array, const spec::Topology& topology,
              std::size_t unit);
   void find_runs(const std::vector<std::vector<std::uint32_t>>& cells, const spec::Topology& topology);
 };

@@ -19,11 +19,12 @@ HM_WIDEST void add_tap(const std::int32_t* __restrict weights, const std::int32_
 }
 
 // Many clocks at once: sums stay in registers.
-HM_WIDEST void add_products(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
-                            std::size_t stride, std::size_t taps, std::int64_t* __restrict sums) {
+HM_WIDEST void add_products(const std::int32_t* __restrict weights, std::size_t weight_stride,
+                            const std::int32_t* __restrict links, std::size_t link_stride, std::size_t taps,
+                            std::int64_t* __restrict sums) {
   std::int64_t sum[lane_count];
   for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
-  for (std::size_t t = 0; t < taps; ++t, weights += stride, links += stride)
+  for (std::size_t t = 0; t < taps; ++t, weights += weight_stride, links += link_stride)
     for (std::size_t l = 0; l < lane_count; ++l) sum[l] += std::int64_t{weights[l]} * links[l];
   for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
 }
@@ -68,13 +69,21 @@ HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const
 }
 
 HM_WIDEST void copy_runs(const std::int32_t* __restrict links, const LinkRun* __restrict runs,
-                         std::size_t count, std::size_t p, std::int32_t* __restrict inputs) {
-  for (const LinkRun *run = runs, *const end = runs + count; run != end; ++run) {
-    const std::int32_t* from = links + run->row + p * run->width;
-    std::int32_t* to = inputs + run->place;
-    for (std::uint32_t k = 0; k < run->count; k += lane_count)
-      for (std::size_t l = 0; l < lane_count; ++l) to[k + l] = from[k + l];
-  }
+                         std::size_t count, std::size_t per_cell, std::size_t stride,
+                         std::int32_t* __restrict inputs) {
+  for (const LinkRun *run = runs, *const end = runs + count; run != end; ++run)
+    for (std::uint32_t k = 0; k < run->count; k += lane_count) {
+      const std::int32_t* from = links + run->row + k;
+      std::int32_t* to = inputs + run->place + k;
+      for (std::size_t l = 0; l < lane_count; ++l) to[l] = from[l];
+      from += run->width;
+      to += stride;
+      for (std::size_t l = 0; l < lane_count; ++l) to[l] = from[l];
+      if (per_cell < 3) continue;
+      from += run->width;
+      to += stride;
+      for (std::size_t l = 0; l < lane_count; ++l) to[l] = from[l];
+    }
 }
 
 } // namespace hopmesh::engine
