@@ -1,6 +1,5 @@
 #include "sim/engine/clocked.h"
 
-#include "sim/engine/clocked_loops.h"
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"
 
@@ -51,8 +50,8 @@ void ClockedEngine::step() {
   if (plain_.beat == nullptr || beat_ == 0 || beat_ + 1 >= length_) return step(1);
   const ClockedBeat& b = plain_.beat[beat_];
   if (b.rows > 0)
-    add_tap(plain_.weights + beat_ * plain_.weight_stride, plain_.inputs + beat_ * plain_.input_stride,
-            b.rows, plain_.sums);
+    plain_.add(plain_.weights + beat_ * plain_.weight_stride, plain_.inputs + beat_ * plain_.input_stride,
+               b.rows, plain_.sums);
   if (b.first_normalised < b.last_normalised)
     beats_.normalise(plain_.row + b.first_normalised, plain_.row + b.last_normalised);
   if (b.first_pulled < b.last_pulled)
@@ -87,6 +86,7 @@ void ClockedEngine::enter(int segment) {
   const ClockedBank& bank = layout_.banks[firing_.bank];
   const std::size_t row = bank.first_row + firing_.first_p * bank.width;
   plain_ = {bank.beat.data(),
+            beats_.tap_adder(),
             &beats_.at.weight[bank.first_weight + firing_.first_p * bank.taps * bank.width],
             beats_.inputs(),
             &beats_.at.sum[row],

@@ -80,6 +80,7 @@ class ClockedEngine {
   /// The phase at hand, where each clock is one tap of one stretch of rows: what step() then needs.
   struct Plain {
     const ClockedBeat* beat = nullptr;
+    ClockedBeats::TapAdder add = nullptr;
     const std::int32_t *weights = nullptr, *inputs = nullptr;
     std::int64_t* sums = nullptr;
     std::size_t row = 0, weight_stride = 0, input_stride = 0;

@@ -11,6 +11,7 @@ ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
     : plan_(plan), layout_(layout), path_(plan),
       to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
       to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)),
+      short_(plan.formats.weight.width + plan.formats.link.width <= 32),
       plain_sums_(plan.exact && plan.product_up == 0), narrow_sums_(!plan.exact && plan.sum_up <= 52),
       per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
       lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.inputs, 0) {
@@ -90,14 +91,20 @@ void ClockedBeats::add_beats(const ClockedBank& bank, std::size_t p, std::uint64
   }
 }
 
-void ClockedBeats::add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums) {
+ClockedBeats::TapAdder ClockedBeats::tap_adder() const {
+  return short_ ? &add_short_tap : &add_tap;
+}
+
+void ClockedBeats::add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums) const {
+  const auto products = short_ ? &add_short_products : &add_products;
+  const auto tap = tap_adder();
   const std::int32_t *weights = taps.weights + row, *inputs = taps.inputs + row;
   std::size_t r = 0;
   for (; taps.count > 1 && r + lane_count <= rows; r += lane_count)
-    add_products(weights + r, taps.weight_stride, inputs + r, taps.input_stride, taps.count, sums + r);
+    products(weights + r, taps.weight_stride, inputs + r, taps.input_stride, taps.count, sums + r);
   if (r == rows) return;
   for (std::size_t t = 0; t < taps.count; ++t)
-    add_tap(weights + t * taps.weight_stride + r, inputs + t * taps.input_stride + r, rows - r, sums + r);
+    tap(weights + t * taps.weight_stride + r, inputs + t * taps.input_stride + r, rows - r, sums + r);
 }
 
 void ClockedBeats::add_rounded(const Taps& taps, std::size_t rows, std::int64_t* sums) const {

@@ -37,8 +37,11 @@ class ClockedBeats {
   /// Rows [first, last).
   void normalise(std::size_t first, std::size_t last);
   void pull_to_bound(std::size_t first, std::size_t last);
-  /// Are beats of one tap that only add it to sums, and can be done by add_tap?
+  /// Are beats one tap each, which tap_adder() only adds to sums?
   bool plain() const { return plain_sums_ && lanes_ == 1; }
+  using TapAdder = void (*)(const std::int32_t* weights, const std::int32_t* inputs, std::size_t rows,
+                            std::int64_t* sums);
+  TapAdder tap_adder() const;
   const std::int32_t* inputs() const { return in_.data(); }
   /// The largest |Delta V|.
   std::int64_t publish(const ClockedBank& bank, std::size_t p);
@@ -53,7 +56,7 @@ class ClockedBeats {
   };
 
   /// Rows [row, row + rows) of the taps; `sums` is that of the first.
-  static void add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums);
+  void add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums) const;
   void add_rounded(const Taps& taps, std::size_t rows, std::int64_t* sums) const;
   std::int64_t rounded_sum(std::int64_t sum, std::int64_t products) const;
 
@@ -62,6 +65,7 @@ class ClockedBeats {
   const DrivePath path_;
   const LaneRounding to_state_, to_link_;
   LaneRounding to_sum_;
+  const bool short_;       ///< a product of codes has at most 32 bits
   const bool plain_sums_;  ///< products add up as they are
   const bool narrow_sums_; ///< a rounding accumulator stays within 63 bits
   const std::size_t per_cell_, lanes_;

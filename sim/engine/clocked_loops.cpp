@@ -12,10 +12,15 @@ namespace {
 
 } // namespace
 
-// One clock. A loop of its own: inside the next one the compiler would look for a nest to interchange.
+// Loops over rows stand by themselves: inside another loop the compiler would look for a nest to interchange.
 HM_WIDEST void add_tap(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
                        std::size_t rows, std::int64_t* __restrict sums) {
   for (std::size_t r = 0; r < rows; ++r) sums[r] += std::int64_t{weights[r]} * links[r];
+}
+
+HM_WIDEST void add_short_tap(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
+                             std::size_t rows, std::int64_t* __restrict sums) {
+  for (std::size_t r = 0; r < rows; ++r) sums[r] += std::int64_t{weights[r] * links[r]};
 }
 
 // Many clocks at once: sums stay in registers.
@@ -26,6 +31,16 @@ HM_WIDEST void add_products(const std::int32_t* __restrict weights, std::size_t 
   for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
   for (std::size_t t = 0; t < taps; ++t, weights += weight_stride, links += link_stride)
     for (std::size_t l = 0; l < lane_count; ++l) sum[l] += std::int64_t{weights[l]} * links[l];
+  for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
+}
+
+HM_WIDEST void add_short_products(const std::int32_t* __restrict weights, std::size_t weight_stride,
+                                  const std::int32_t* __restrict links, std::size_t link_stride,
+                                  std::size_t taps, std::int64_t* __restrict sums) {
+  std::int64_t sum[lane_count];
+  for (std::size_t l = 0; l < lane_count; ++l) sum[l] = sums[l];
+  for (std::size_t t = 0; t < taps; ++t, weights += weight_stride, links += link_stride)
+    for (std::size_t l = 0; l < lane_count; ++l) sum[l] += std::int64_t{weights[l] * links[l]};
   for (std::size_t l = 0; l < lane_count; ++l) sums[l] = sum[l];
 }
 

@@ -11,6 +11,11 @@ void add_tap(const std::int32_t* weights, const std::int32_t* links, std::size_t
 /// The same for `taps` taps of lane_count rows; those of a tap lie a stride behind those of the one before.
 void add_products(const std::int32_t* weights, std::size_t weight_stride, const std::int32_t* links,
                   std::size_t link_stride, std::size_t taps, std::int64_t* sums);
+// The same two, for codes whose product has at most 32 bits.
+void add_short_tap(const std::int32_t* weights, const std::int32_t* links, std::size_t rows,
+                   std::int64_t* sums);
+void add_short_products(const std::int32_t* weights, std::size_t weight_stride, const std::int32_t* links,
+                        std::size_t link_stride, std::size_t taps, std::int64_t* sums);
 /// norms += |weights| * 2^up.
 void add_magnitudes(const std::int32_t* weights, std::size_t stride, std::size_t taps, int up,
                     std::size_t rows, std::int64_t* norms);
