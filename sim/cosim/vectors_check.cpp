@@ -76,7 +76,7 @@ std::string check_answers(const std::string& path, VectorReader& reader, const V
       if (a.end)
         return fmt::format("{}:{}: case {}: found the end after {} sweeps, expected sweep {} of {}", path,
                            a.line, a_case.name, sweep - 1, sweep, end.sweeps);
-      const std::string wrong = judge.of_fire(a, before, after);
+      std::string wrong = judge.of_fire(a, before, after);
       if (!wrong.empty()) return wrong;
     }
     before = std::move(after);
