@@ -102,7 +102,7 @@ class Reading {
   }
 
   std::string text_of(const std::string& key) {
-    const std::string value(lines_.value(key));
+    std::string value(lines_.value(key));
     c_.line.emplace(key, lines_.line());
     return value;
   }
