@@ -66,11 +66,13 @@ static inline void spring_vector(const hm_mesh* mesh, const hm_spring* spring, u
   }
 }
 
-/* S_e and f_e of one spring. A spring of no length has no direction: its L = 0 part alone. */
+/* S_e and f_e of one spring. A spring of no length has no direction: its L = 0 part alone. `convex`: a
+   compressed spring's curvature across itself counts as none instead of negative. */
 static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, const double u[3], double h,
-                                double s[3][3], double f[3], const uint32_t n) {
+                                double s[3][3], double f[3], const uint32_t n, const int convex) {
   const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   const double slack = length > 0 ? spring->rest_length / length : 0.0;
+  const double curved = convex && slack > 1 ? 1.0 : slack;
   const double stiffness = 2 * spring->weight * h * h, pull = 2 * spring->weight * h * (1 - slack);
   double along[3];
   for (uint32_t p = 0; p < n; ++p) {
@@ -81,7 +83,7 @@ static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, co
   for (uint32_t p = 0; p < n; ++p)
     for (uint32_t q = 0; q < n; ++q) {
       const double across = length > 0 ? (p == q) - along[p] * along[q] : 0.0;
-      s[p][q] = stiffness * ((p == q) - slack * across);
+      s[p][q] = stiffness * ((p == q) - curved * across);
     }
 }
 
@@ -96,11 +98,11 @@ static inline void add_spring_end(const hm_mesh* mesh, hm_network* network, uint
 
 /* A spring's part of its ends' rows; g_i += f, g_j -= f, and the bias gets -g. */
 static inline void add_spring(const hm_mesh* mesh, const hm_spring* spring, const double* predicted, double h,
-                              hm_network* network, const uint32_t n) {
+                              hm_network* network, const uint32_t n, const int convex) {
   const uint32_t i = mesh->cell_of_node[spring->node[0]], j = mesh->cell_of_node[spring->node[1]];
   double u[3], s[3][3], f[3];
   spring_vector(mesh, spring, i, j, predicted, h, network->output, u, n);
-  spring_terms(mesh, spring, u, h, s, f, n);
+  spring_terms(mesh, spring, u, h, s, f, n, convex);
   if (i != HM_PINNED) {
     add_spring_end(mesh, network, i, spring->link[0], s, n);
     for (uint32_t p = 0; p < n; ++p) network->bias[i * n + p] -= f[p];
@@ -151,22 +153,54 @@ static inline void add_expansion_point(const hm_mesh* mesh, hm_network* network,
   for (uint32_t p = 0; p < n; ++p) network->bias[cell * n + p] -= sum[p];
 }
 
-static inline void add_all(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
-                           hm_network* network, const uint32_t n) {
-  for (uint32_t e = 0; e < mesh->springs; ++e) add_spring(mesh, &mesh->spring[e], predicted, h, network, n);
+/* The inertia term of one node: W_ii -= mu, -g_i -= mu V0. */
+static inline void add_inertia(const hm_mesh* mesh, hm_network* network, uint32_t cell, double inertia,
+                               const uint32_t n) {
+  const uint32_t first = mesh->first_link[cell], row = n * (1 + mesh->first_link[cell + 1] - first);
+  double* own = network->weight + n * n * (cell + first);
+  for (uint32_t p = 0; p < n; ++p) {
+    own[p * row + p] -= inertia;
+    network->bias[cell * n + p] -= inertia * network->output[cell * n + p];
+  }
+}
+
+/* What the outputs mean: the probe's directions, or scaled accelerations of an implicit step. */
+enum meaning { DIRECTIONS, ACCELERATIONS };
+
+/* Springs and one term a node: of weight `of_node`, times beta_weight where outputs are directions. */
+static inline void add_all(const hm_mesh* mesh, const double* predicted, double h, double of_node,
+                           hm_network* network, const uint32_t n, const enum meaning meaning) {
+  for (uint32_t e = 0; e < mesh->springs; ++e)
+    add_spring(mesh, &mesh->spring[e], predicted, h, network, n, meaning == ACCELERATIONS);
   for (uint32_t c = 0; c < mesh->cells; ++c) {
-    add_unit_term(mesh, network, c, beta_scale * mesh->beta_weight[mesh->node_of_cell[c]], n);
+    if (meaning == DIRECTIONS)
+      add_unit_term(mesh, network, c, of_node * mesh->beta_weight[mesh->node_of_cell[c]], n);
+    else
+      add_inertia(mesh, network, c, of_node, n);
     add_expansion_point(mesh, network, c, n);
   }
 }
 
-void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
-                      hm_network* network) {
+static void clear(const hm_mesh* mesh, hm_network* network) {
   const uint32_t weights = hm_weight_count(mesh), biases = mesh->cells * mesh->components;
   for (uint32_t k = 0; k < weights; ++k) network->weight[k] = 0;
   for (uint32_t k = 0; k < biases; ++k) network->bias[k] = 0;
+}
+
+void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
+                      hm_network* network) {
+  clear(mesh, network);
   if (mesh->components == 3)
-    add_all(mesh, predicted, h, beta_scale, network, 3);
+    add_all(mesh, predicted, h, beta_scale, network, 3, DIRECTIONS);
   else
-    add_all(mesh, predicted, h, beta_scale, network, mesh->components);
+    add_all(mesh, predicted, h, beta_scale, network, mesh->components, DIRECTIONS);
+}
+
+void hm_network_build_incremental(const hm_mesh* mesh, const double* predicted, double reach, double inertia,
+                                  hm_network* network) {
+  clear(mesh, network);
+  if (mesh->components == 3)
+    add_all(mesh, predicted, reach, inertia * reach * reach, network, 3, ACCELERATIONS);
+  else
+    add_all(mesh, predicted, reach, inertia * reach * reach, network, mesh->components, ACCELERATIONS);
 }

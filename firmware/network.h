@@ -51,6 +51,12 @@ int hm_mesh_connect(hm_mesh* mesh);
 void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
                       hm_network* network);
 
+/* The same of the incremental potential (math.md 4), whose outputs move a node by reach * V metres and weigh
+   inertia (kg/s^2) / 2 times the square of that. Compressed springs count convex: W is negative
+   semi-definite. */
+void hm_network_build_incremental(const hm_mesh* mesh, const double* predicted, double reach, double inertia,
+                                  hm_network* network);
+
 #ifdef __cplusplus
 }
 #endif

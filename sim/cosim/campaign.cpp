@@ -64,7 +64,8 @@ void say(int pipe, const std::string& line) {
   }
 }
 
-[[noreturn]] void do_batch(const std::vector<Contestant>& contestants, std::uint64_t seed, Batch batch, int pipe) {
+[[noreturn]] void do_batch(const std::vector<Contestant>& contestants, std::uint64_t seed, Batch batch,
+                           int pipe) {
   std::vector<CampaignCase> cases;
   std::vector<MadeAhead> ahead;
   const auto takes_part = [&](std::uint64_t number) {

@@ -65,4 +65,8 @@ inline double spring_term(const scene::Spring& spring, const Vector3& p, const V
   return spring.weight * stretch * stretch;
 }
 
+/// The two formulations; each leaves V and the count of steps to advance().
+Step advance_probe(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+Step advance_incremental(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+
 } // namespace hopmesh::reference

@@ -1,4 +1,5 @@
-// One time step of the probe formulation: predict, expand, relax, advance (docs/theory.md, section 4).
+// Motions of scenes, and one time step of the probe formulation: predict, expand, relax, advance
+// (docs/theory.md, section 4).
 #include "sim/reference/components.h"
 
 #include <cmath>
@@ -84,6 +85,12 @@ Motion motion_of(const scene::Scene& scene) {
   motion.acceleration_memory = scene.probe.acceleration_memory;
   motion.energy_of_all_springs = scene.probe.energy_springs == "all";
   motion.force_on_acceleration = scene.probe.force_on == "acceleration";
+  motion.mass = scene.mesh.mass;
+  motion.drag = scene.force.drag;
+  if (scene.motion.formulation == scene::Formulation::incremental)
+    motion.rule = scene.incremental.rule == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+  else
+    motion.friction /= 1 + motion.drag * motion.time_step;
   motion.force = vector(scene.force.gravity) + vector(scene.force.wind.value_or(scene::Vector3{0, 0, 0}));
   motion.threshold = scene.relax.threshold;
   motion.max_sweeps = static_cast<std::uint32_t>(scene.relax.max_sweeps);
@@ -91,12 +98,13 @@ Motion motion_of(const scene::Scene& scene) {
   return motion;
 }
 
-State initial_state(const scene::Mesh& mesh) {
+State initial_state(const scene::Mesh& mesh, Rule rule) {
   State state;
   state.position.resize(3 * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     at(state.position, node) = Eigen::Map<const Vector3>(mesh.position[node].data());
   state.velocity = state.acceleration = Vector::Zero(3 * nodes_of(mesh));
+  if (rule == Rule::bdf2) state.previous_position = state.previous_velocity = state.velocity;
   state.V = Vector::Zero(components(mesh) * nodes_of(mesh));
   return state;
 }
@@ -125,7 +133,7 @@ Vector expansion_point(const scene::Mesh& mesh, const State& state) {
 
 // docs/theory.md, section 4 (probe). With more than one expansion the step reports the last one, sweeps
 // summed: from V0, its network comes to rest at relaxation.V.
-Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+Step advance_probe(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
   Step step;
   step.predicted = predict(mesh, motion, state);
   step.relaxation.V = expansion_point(mesh, state);
@@ -137,6 +145,12 @@ Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, 
     step.relaxation.sweeps += sweeps_before;
   }
   move(mesh, motion, step, state);
+  return step;
+}
+
+Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+  Step step = motion.rule == Rule::probe ? advance_probe(mesh, motion, order, state)
+                                         : advance_incremental(mesh, motion, order, state);
   state.V = step.relaxation.V;
   ++state.step;
   return step;

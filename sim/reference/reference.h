@@ -28,7 +28,12 @@ struct Relaxation {
   bool converged = false;
 };
 
+/// What the outputs mean: directions (the paper), or accelerations of an implicit step.
+enum class Rule { probe, backward_euler, bdf2 };
+
 struct Motion {
+  Rule rule = Rule::probe;
+  double mass = 1, drag = 0; ///< incremental: kg of a node; 1/s
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
   Eigen::Vector3d force;
@@ -39,14 +44,18 @@ struct Motion {
 /// Motion of a scene; force is gravity plus wind.
 Motion motion_of(const scene::Scene& scene);
 
-/// Positions, velocities, accelerations: [3 * nodes], node by node.
+/// Positions, velocities, accelerations: [3 * nodes], node by node. In the incremental formulation the
+/// acceleration is what the springs added to the prediction, da = sigma V.
 struct State {
   Vector position, velocity, acceleration;
+  Vector previous_position, previous_velocity; ///< a step before; BDF2 only, else empty
   Vector V; ///< [components * nodes] rest state of the step before; zero at first
   std::uint64_t step = 0;
 };
 
-State initial_state(const scene::Mesh& mesh);
+State initial_state(const scene::Mesh& mesh, Rule rule = Rule::probe);
+
+// ---- probe (docs/theory.md, sections 1, 2, 4)
 
 /// C of docs/theory.md, section 1: [3 * nodes].
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
@@ -59,6 +68,25 @@ double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predi
 double spring_energy(const scene::Mesh& mesh, const Vector& position);
 /// W = -H, I = H V0 - g of docs/theory.md, section 2, about V0.
 Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);
+
+// ---- incremental potential (docs/theory.md, section 4)
+
+/// What one step minimises: inertia about a prediction, and the springs.
+struct Increment {
+  Vector predicted; ///< C, [3 * nodes]
+  double h;         ///< x = C + h da, s^2
+  double inertia;   ///< of one node, kg/s^2
+};
+Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state);
+/// Phi(V) at outputs that stand for da = scale V.
+double energy(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V);
+/// Its second-order expansion about V0, with compressed springs counted convex: W is negative semi-definite.
+Network network(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V0);
+/// da of the step before over the scale.
+Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale);
+
+// ---- both
+
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
 /// The rule of docs/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more than
@@ -71,12 +99,13 @@ double kkt_violation(const Network& network, const Vector& V);
 /// What one step did, for records and for `network --step`: V0 and network of the last expansion, and the
 /// rest it relaxed to; sweeps of all expansions together.
 struct Step {
+  double scale = 1; ///< sigma of the last expansion; 1 in the probe
   Vector predicted, V0;
   Network network;
   Relaxation relaxation;
 };
 
-/// One whole step of docs/theory.md, section 4 (probe).
+/// One whole step of docs/theory.md, section 4.
 Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

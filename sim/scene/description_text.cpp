@@ -59,8 +59,9 @@ std::string mesh_text(const MeshSpec& mesh) {
 }
 
 std::string motion_text(const MotionSpec& motion) {
-  return fmt::format("\n[motion]\nformulation = \"probe\"\ntime_step = {}\nsteps = {}\nfriction = {}\n",
-                     number(motion.time_step), motion.steps, number(motion.friction));
+  const char* formulation = motion.formulation == Formulation::probe ? "probe" : "incremental";
+  return fmt::format("\n[motion]\nformulation = \"{}\"\ntime_step = {}\nsteps = {}\nfriction = {}\n",
+                     formulation, number(motion.time_step), motion.steps, number(motion.friction));
 }
 
 std::string probe_text(const ProbeSpec& probe) {
@@ -70,6 +71,10 @@ std::string probe_text(const ProbeSpec& probe) {
       string(probe.energy_springs), string(probe.force_on));
 }
 
+std::string incremental_text(const IncrementalSpec& incremental) {
+  return fmt::format("\n[incremental]\nrule = {}\n", string(incremental.rule));
+}
+
 std::string relax_text(const RelaxSpec& relax) {
   return fmt::format("\n[relax]\nthreshold = {}\nmax_sweeps = {}\nexpansions = {}\n", number(relax.threshold),
                      relax.max_sweeps, relax.expansions);
@@ -77,14 +82,16 @@ std::string relax_text(const RelaxSpec& relax) {
 
 std::string force_text(const ForceSpec& force) {
   const std::string wind = force.wind ? "wind = " + vector(*force.wind) + '\n' : "";
-  return fmt::format("\n[force]\ngravity = {}\n{}", vector(force.gravity), wind);
+  return fmt::format("\n[force]\ngravity = {}\n{}drag = {}\n", vector(force.gravity), wind,
+                     number(force.drag));
 }
 
 } // namespace
 
 std::string scene_text(const Scene& scene) {
   return "name = " + string(scene.name) + '\n' + mesh_text(scene.mesh) + motion_text(scene.motion) +
-         probe_text(scene.probe) + relax_text(scene.relax) + force_text(scene.force);
+         probe_text(scene.probe) + incremental_text(scene.incremental) + relax_text(scene.relax) +
+         force_text(scene.force);
 }
 
 std::string array_text(const spec::ArraySpec& a) {

@@ -34,7 +34,7 @@ struct MeshSpec {
   bool planar = false;        ///< two neurons a node, along x and z
 };
 
-enum class Formulation { probe };
+enum class Formulation { probe, incremental };
 
 struct MotionSpec {
   Formulation formulation = Formulation::probe;
@@ -51,6 +51,10 @@ struct ProbeSpec {
   std::string force_on = "velocity";  ///< velocity | acceleration
 };
 
+struct IncrementalSpec {
+  std::string rule = "backward_euler"; ///< backward_euler | bdf2
+};
+
 struct RelaxSpec {
   double threshold = 1e-4;
   std::int64_t max_sweeps = 300;
@@ -60,6 +64,7 @@ struct RelaxSpec {
 struct ForceSpec {
   Vector3 gravity{0, 0, 0}; ///< m/s^2
   std::optional<Vector3> wind;
+  double drag = 0; ///< 1/s: -drag * v is added to every free node's acceleration
 };
 
 struct Scene {
@@ -69,6 +74,7 @@ struct Scene {
   MeshSpec mesh;
   MotionSpec motion;
   ProbeSpec probe;
+  IncrementalSpec incremental;
   RelaxSpec relax;
   ForceSpec force;
 };

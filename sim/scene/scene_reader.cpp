@@ -54,6 +54,7 @@ class SceneReader {
     read_node();
     read_motion();
     read_probe();
+    read_incremental();
     read_relax();
     read_force();
     keys_.refuse_unknown();
@@ -115,13 +116,9 @@ class SceneReader {
 
   void read_motion() {
     MotionSpec& motion = scene_.motion;
-    const TomlValue* formulation = keys_.value("motion.formulation");
-    const auto* name = formulation ? formulation->as<std::string>() : nullptr;
-    if (name && *name == "incremental")
-      throw error("motion.formulation",
-                  "\"probe\": the incremental formulation is planned, only probe is offered");
-    std::string probe = "probe";
-    keys_.choice("motion.formulation", probe, {"probe"});
+    std::string formulation = "probe";
+    keys_.choice("motion.formulation", formulation, {"probe", "incremental"});
+    motion.formulation = formulation == "probe" ? Formulation::probe : Formulation::incremental;
     keys_.real("motion.time_step", motion.time_step, above_zero);
     keys_.integer("motion.steps", motion.steps, 1, most_count);
     keys_.real("motion.friction", motion.friction, zero_to_one);
@@ -136,6 +133,10 @@ class SceneReader {
     keys_.choice("probe.force_on", probe.force_on, {"velocity", "acceleration"});
   }
 
+  void read_incremental() {
+    keys_.choice("incremental.rule", scene_.incremental.rule, {"backward_euler", "bdf2"});
+  }
+
   void read_relax() {
     keys_.real("relax.threshold", scene_.relax.threshold, from_zero);
     keys_.integer("relax.max_sweeps", scene_.relax.max_sweeps, 1, most_count);
@@ -146,6 +147,7 @@ class SceneReader {
     keys_.vector("force.gravity", scene_.force.gravity);
     Vector3 wind{};
     if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
+    keys_.real("force.drag", scene_.force.drag, from_zero);
   }
 
   void check_shape() const {

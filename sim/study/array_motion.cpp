@@ -30,6 +30,13 @@ hm_motion motion_of(const scene::Scene& scene) {
   hm_motion m{};
   m.time_step = scene.motion.time_step;
   m.friction = scene.motion.friction;
+  m.mass = scene.mesh.mass;
+  m.drag = scene.force.drag;
+  m.rule = HM_PROBE;
+  if (scene.motion.formulation == scene::Formulation::incremental)
+    m.rule = scene.incremental.rule == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+  else
+    m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
   m.gamma = scene.probe.gamma;
   m.beta = scene.probe.beta;
   m.acceleration_memory = scene.probe.acceleration_memory;
@@ -61,9 +68,7 @@ StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.output;
-  if (check_)
-    check_->begin(memory_.position.data(), memory_.velocity.data(), memory_.acceleration.data(),
-                  memory_.output, step);
+  if (check_) check_->begin(state());
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;
@@ -89,9 +94,18 @@ StepRow ArrayMotion::advance() {
   row.saturated = static_cast<std::uint64_t>(std::count_if(memory_.output.begin(), memory_.output.end(),
                                                            [](double V) { return std::fabs(V) >= 1; }));
   measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
-  if (check_) row.error = check_->judge(memory_.state.network, memory_.start);
-  row.hash = state_hash(memory_.position, memory_.velocity, memory_.acceleration, memory_.output);
+  if (check_) row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale);
+  row.hash = hash();
   return row;
+}
+
+// As state_hash(state()), without the copy of large meshes.
+std::uint64_t ArrayMotion::hash() const {
+  const std::vector<double> none;
+  const bool two_steps = motion_.rule == HM_BDF2;
+  return state_hash({&memory_.position, &memory_.velocity, &memory_.acceleration, &memory_.output,
+                     two_steps ? &memory_.previous_position : &none,
+                     two_steps ? &memory_.previous_velocity : &none});
 }
 
 std::uint64_t ArrayMotion::bus_cycles() const {
@@ -124,7 +138,11 @@ std::vector<SignalRange> ArrayMotion::ranges() const {
 }
 
 StepState ArrayMotion::state() const {
-  return {memory_.state.step, memory_.position, memory_.velocity, memory_.acceleration, memory_.output};
+  StepState s{
+      memory_.state.step, memory_.position, memory_.velocity, memory_.acceleration, memory_.output, {}, {}};
+  if (motion_.rule == HM_BDF2)
+    s.previous_position = memory_.previous_position, s.previous_velocity = memory_.previous_velocity;
+  return s;
 }
 
 // Values are copied into place: the firmware's pointers stay what they are.
@@ -138,6 +156,10 @@ void ArrayMotion::restore(const StepState& state, const std::vector<SignalRange>
   copy(state.velocity, memory_.velocity);
   copy(state.acceleration, memory_.acceleration);
   copy(state.output, memory_.output);
+  if (motion_.rule == HM_BDF2) {
+    copy(state.previous_position, memory_.previous_position);
+    copy(state.previous_velocity, memory_.previous_velocity);
+  }
   seen_ = seen;
 }
 

@@ -29,6 +29,7 @@ class ArrayMotion : public Motion {
  private:
   void open();
   std::uint64_t bus_cycles() const;
+  std::uint64_t hash() const;
   std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
 
   const BuiltMesh& mesh_;

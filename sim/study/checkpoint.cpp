@@ -15,15 +15,10 @@ namespace hopmesh::study {
 
 namespace {
 
-const std::string magic = "hopmesh-checkpoint", format_version = "1";
+const std::string magic = "hopmesh-checkpoint", format_version = "2";
 constexpr std::size_t most_bytes = std::size_t{1} << 32; // four million nodes take a tenth of it
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "values are written as they lie in memory");
-
-template <class State> auto parts_of(State& state) {
-  return std::array{std::pair("position", &state.position), std::pair("velocity", &state.velocity),
-                    std::pair("acceleration", &state.acceleration), std::pair("output", &state.output)};
-}
 
 // ---- writing
 
@@ -155,7 +150,7 @@ class Reading {
 
   void state() {
     const auto parts = parts_of(c_.state);
-    std::array<std::uint64_t, 4> checks{};
+    std::array<std::uint64_t, parts.size()> checks{};
     std::uint64_t doubles = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       std::uint64_t count = 0;

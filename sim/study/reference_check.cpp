@@ -21,14 +21,17 @@ ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh,
     : mesh_(mesh), motion_(reference::motion_of(scene)), order_(order_for(mesh, schedule)),
       state_(reference::initial_state(mesh.mesh())) {}
 
-void ReferenceCheck::begin(const double* position, const double* velocity, const double* acceleration,
-                           const std::vector<double>& V, std::uint64_t step) {
-  const auto count = static_cast<Eigen::Index>(3 * mesh_.nodes());
-  state_.position = Eigen::Map<const Vector>(position, count);
-  state_.velocity = Eigen::Map<const Vector>(velocity, count);
-  state_.acceleration = Eigen::Map<const Vector>(acceleration, count);
-  state_.V = by_node(V);
-  state_.step = step;
+void ReferenceCheck::begin(const StepState& state) {
+  const auto vector = [](const std::vector<double>& values) -> Vector {
+    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  state_.position = vector(state.position);
+  state_.velocity = vector(state.velocity);
+  state_.acceleration = vector(state.acceleration);
+  state_.previous_position = vector(state.previous_position);
+  state_.previous_velocity = vector(state.previous_velocity);
+  state_.V = by_node(state.output);
+  state_.step = state.step;
 }
 
 Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
@@ -36,11 +39,19 @@ Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
   return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start) const {
+reference::Network ReferenceCheck::expanded(const std::vector<double>& start, double scale,
+                                            Vector& V0) const {
   const scene::Mesh& mesh = mesh_.mesh();
-  const Vector predicted = reference::predict(mesh, motion_, state_);
-  const Vector V0 = motion_.expansions == 1 ? reference::expansion_point(mesh, state_) : by_node(start);
-  const reference::Network network = reference::network(mesh, motion_, predicted, V0);
+  const bool probe = motion_.rule == reference::Rule::probe;
+  V0 = probe && motion_.expansions == 1 ? reference::expansion_point(mesh, state_) : by_node(start);
+  if (probe) return reference::network(mesh, motion_, reference::predict(mesh, motion_, state_), V0);
+  return reference::network(mesh, reference::increment(mesh, motion_, state_), scale, V0);
+}
+
+ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start,
+                                     double scale) const {
+  Vector V0;
+  const reference::Network network = expanded(start, scale, V0);
   const Vector wanted = reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps).V;
   const std::size_t neurons = start.size();
   const Vector V = by_node(std::vector<double>(built.output, built.output + neurons));

@@ -13,15 +13,17 @@ class ReferenceCheck {
  public:
   ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule);
 
-  /// Before a step: where it starts from. V: the rest state of the step before, [cells * components].
-  void begin(const double* position, const double* velocity, const double* acceleration,
-             const std::vector<double>& V, std::uint64_t step);
+  /// Before a step: where it starts from, outputs cell by cell.
+  void begin(const StepState& state);
   /// After it: the network that the firmware built about `start` and the outputs that the array came to.
-  /// With several expansions it is the last one that is judged, from the array's own start of it.
-  ReferenceError judge(const hm_network& network, const std::vector<double>& start) const;
+  /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
+  /// the incremental formulation, at the array's own scale.
+  ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale) const;
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;
+  /// The same expansion by the reference, from its own prediction; `start` becomes its point.
+  reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
   double network_difference(const reference::Network& network, const hm_network& built) const;
 
   const BuiltMesh& mesh_;

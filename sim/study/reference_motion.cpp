@@ -6,7 +6,7 @@ namespace hopmesh::study {
 
 ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule)
     : mesh_(mesh), motion_(reference::motion_of(scene)), order_(order_for(mesh, schedule)),
-      state_(reference::initial_state(mesh.mesh())),
+      state_(reference::initial_state(mesh.mesh(), motion_.rule)),
       position_(state_.position.data(), state_.position.data() + state_.position.size()) {}
 
 StepRow ReferenceMotion::advance() {
@@ -25,7 +25,7 @@ StepRow ReferenceMotion::advance() {
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
-  row.hash = state_hash(state_.position, state_.velocity, state_.acceleration, state_.V);
+  row.hash = state_hash(state());
   return row;
 }
 
@@ -33,8 +33,13 @@ StepState ReferenceMotion::state() const {
   const auto values = [](const reference::Vector& v) {
     return std::vector<double>(v.data(), v.data() + v.size());
   };
-  return {state_.step, values(state_.position), values(state_.velocity), values(state_.acceleration),
-          values(state_.V)};
+  return {state_.step,
+          values(state_.position),
+          values(state_.velocity),
+          values(state_.acceleration),
+          values(state_.V),
+          values(state_.previous_position),
+          values(state_.previous_velocity)};
 }
 
 void ReferenceMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
@@ -48,6 +53,8 @@ void ReferenceMotion::restore(const StepState& state, const std::vector<SignalRa
   copy(state.velocity, state_.velocity);
   copy(state.acceleration, state_.acceleration);
   copy(state.output, state_.V);
+  copy(state.previous_position, state_.previous_position);
+  copy(state.previous_velocity, state_.previous_velocity);
   position_ = state.position;
 }
 

@@ -98,7 +98,7 @@ std::vector<StepRow> rows_of(const Checkpoint& c, const RunStreams& streams) {
   if (rows.size() != c.state.step)
     throw c.error("steps.csv", fmt::format("{} rows", rows.size()), fmt::format("{}", c.state.step));
   const StepState& s = c.state;
-  const std::uint64_t hash = state_hash(s.position, s.velocity, s.acceleration, s.output);
+  const std::uint64_t hash = state_hash(s);
   if (!rows.empty() && rows.back().hash != hash)
     throw c.error("steps", fmt::format("a state with hash {:016x}", hash),
                   fmt::format("{:016x}, as in steps.csv", rows.back().hash));

@@ -13,6 +13,7 @@ struct StepMemory {
   StepMemory& operator=(const StepMemory&) = delete;
 
   std::vector<double> position, velocity, acceleration, predicted; ///< [nodes * 3]
+  std::vector<double> previous_position, previous_velocity;        ///< [nodes * 3]
   std::vector<double> energy_change;                               ///< [cells]
   std::vector<double> direction;                                   ///< [cells * 3]
   std::vector<double> start, weight, bias, output;                 ///< as hm_network

@@ -64,6 +64,7 @@ struct Pair {
 
 inline reference::Motion reference_motion(const hm_motion& m) {
   reference::Motion r{};
+  r.rule = static_cast<reference::Rule>(m.rule), r.mass = m.mass, r.drag = m.drag;
   r.time_step = m.time_step, r.friction = m.friction, r.gamma = m.gamma, r.beta = m.beta;
   r.acceleration_memory = m.acceleration_memory;
   r.energy_of_all_springs = m.energy_of_all_springs != 0;

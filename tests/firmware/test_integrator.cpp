@@ -49,6 +49,8 @@ struct Moving {
     const std::size_t nodes = pair.scene.nodes();
     for (std::size_t k = 0; k < 3 * nodes; ++k) position.push_back(pair.scene.position[k / 3][k % 3]);
     velocity.resize(3 * nodes), acceleration.resize(3 * nodes), predicted.resize(3 * nodes);
+    previous_position.resize(3 * nodes), previous_velocity.resize(3 * nodes);
+    state.previous_position = previous_position.data(), state.previous_velocity = previous_velocity.data();
     direction.resize(3 * pair.firmware.mesh.cells), state.direction = direction.data();
     energy_change.resize(pair.firmware.mesh.cells), start.resize(pair.firmware.neurons());
     state.position = position.data(), state.velocity = velocity.data();
@@ -57,11 +59,14 @@ struct Moving {
     state.network = pair.firmware.network;
   }
   std::vector<double> position, velocity, acceleration, predicted, energy_change, direction, start;
+  std::vector<double> previous_position, previous_velocity;
   hm_state state{};
 };
 
 hm_motion random_motion(Dice& dice) {
   hm_motion m{};
+  m.rule = static_cast<int>(dice.below(3));
+  m.mass = 0.2 + dice.unit(), m.drag = dice.one_in(2) ? 0 : 3 * dice.unit();
   m.time_step = 0.05, m.friction = 0.99, m.gamma = dice.one_in(2) ? 40 : 4000,
   m.beta = dice.one_in(3) ? 0 : 1;
   m.acceleration_memory = dice.one_in(2);
@@ -97,7 +102,7 @@ TEST_P(TwentySteps, FollowTheReference) {
   const hm_motion motion = random_motion(dice);
   const hm_solver solver{nullptr, &relax_in_double};
   const reference::Order order = number_order(pair);
-  reference::State expected = reference::initial_state(pair.scene);
+  reference::State expected = reference::initial_state(pair.scene, reference_motion(motion).rule);
   Moving moving(pair);
   for (int step = 0; step < 20; ++step) {
     hm_step_result result;
@@ -110,6 +115,9 @@ TEST_P(TwentySteps, FollowTheReference) {
     ASSERT_LT(largest_difference(moving.acceleration, expected.acceleration), 1e-9 * scale)
         << "step " << step;
     ASSERT_EQ(moving.state.step, expected.step);
+    if (motion.rule != HM_PROBE) {
+      ASSERT_EQ(moving.state.scale, taken.scale) << "step " << step;
+    }
     const double energy = reference::spring_energy(pair.scene, expected.position);
     ASSERT_NEAR(hm_spring_energy(&pair.firmware.mesh, moving.position.data()), energy, 1e-9 * (1 + energy))
         << "step " << step;

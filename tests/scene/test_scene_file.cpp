@@ -28,7 +28,7 @@ TEST(SceneFile, readsEveryKey) {
 
 TEST(SceneFile, readsEveryKeyOfTheMotion) {
   const Scene s = read_inputs(folder + "good/every_key.toml", "", {}).scene;
-  EXPECT_EQ(s.motion.formulation, Formulation::probe);
+  EXPECT_EQ(s.motion.formulation, Formulation::incremental);
   EXPECT_EQ(s.motion.time_step, 0.01);
   EXPECT_EQ(s.motion.steps, 7);
   EXPECT_EQ(s.motion.friction, 0.9);
@@ -37,11 +37,13 @@ TEST(SceneFile, readsEveryKeyOfTheMotion) {
   EXPECT_EQ(s.probe.acceleration_memory, 0.5);
   EXPECT_EQ(s.probe.energy_springs, "all");
   EXPECT_EQ(s.probe.force_on, "acceleration");
+  EXPECT_EQ(s.incremental.rule, "bdf2");
   EXPECT_EQ(s.relax.threshold, 3e-7);
   EXPECT_EQ(s.relax.max_sweeps, 12);
   EXPECT_EQ(s.relax.expansions, 3);
   EXPECT_THAT(s.force.gravity, ElementsAre(0, 0, -9.81));
   EXPECT_THAT(*s.force.wind, ElementsAre(1e-3, 0.3333333333333333, 5));
+  EXPECT_EQ(s.force.drag, 0.625);
 }
 
 TEST(SceneFile, fillsDefaultsIn) {
@@ -58,6 +60,9 @@ TEST(SceneFile, fillsDefaultsIn) {
   EXPECT_EQ(s.probe.gamma, 4000.0);
   EXPECT_EQ(s.relax.max_sweeps, 300);
   EXPECT_FALSE(s.force.wind);
+  EXPECT_EQ(s.motion.formulation, Formulation::probe);
+  EXPECT_EQ(s.incremental.rule, "backward_euler");
+  EXPECT_EQ(s.force.drag, 0.0);
 }
 
 TEST(SceneFile, takesIntegersWhereRealsAreMeant) {

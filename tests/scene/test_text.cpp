@@ -40,11 +40,13 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.probe.acceleration_memory, b.probe.acceleration_memory);
   EXPECT_EQ(a.probe.energy_springs, b.probe.energy_springs);
   EXPECT_EQ(a.probe.force_on, b.probe.force_on);
+  EXPECT_EQ(a.incremental.rule, b.incremental.rule);
   EXPECT_EQ(a.relax.threshold, b.relax.threshold);
   EXPECT_EQ(a.relax.max_sweeps, b.relax.max_sweeps);
   EXPECT_EQ(a.relax.expansions, b.relax.expansions);
   EXPECT_EQ(a.force.gravity, b.force.gravity);
   EXPECT_EQ(a.force.wind, b.force.wind);
+  EXPECT_EQ(a.force.drag, b.force.drag);
 }
 
 void expect_equal(const spec::ArraySpec& a, const spec::ArraySpec& b) {

@@ -30,7 +30,8 @@ class CheckpointFile : public ::testing::Test {
     c.array = "name = \"y\"\n";
     c.ranges = {{"weight", {}, -7, 9}, {"state", {}, std::numeric_limits<std::int64_t>::min(), 0}};
     c.streams = {{"positions.npy", {1234, 0xfedcba9876543210}}, {"steps.csv", {0, 1}}};
-    c.state = {5, {0.1, -0.0, 1e-320}, {1 / 3.0, INFINITY, 3}, {4, 5, std::nan("7")}, {-1, 2}};
+    c.state = {5,    {0.1, -0.0, 1e-320}, {1 / 3.0, INFINITY, 3}, {4, 5, std::nan("7")}, {-1, 2}, {7, 8, 9},
+               {0.5}};
   }
   Checkpoint again() const {
     study::write_checkpoint(file, c);
@@ -120,7 +121,7 @@ TEST_F(CheckpointFile, NothingMayBeMissingOrTooMuch) {
   const std::string good = whole();
   for (std::size_t k = 0; k < good.size(); ++k)
     EXPECT_THAT(refusal(good.substr(0, k)), HasSubstr(file.string())) << k;
-  EXPECT_THAT(refusal(good + "x"), HasSubstr("binary: found 89 bytes behind this line, expected 88"));
+  EXPECT_THAT(refusal(good + "x"), HasSubstr("binary: found 121 bytes behind this line, expected 120"));
 }
 
 TEST_F(CheckpointFile, LinesOfAnotherCheckpointDoNotMixIn) {

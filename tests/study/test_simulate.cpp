@@ -23,7 +23,7 @@ class ToldMotion : public study::Motion {
     return row;
   }
   const std::vector<double>& positions() const override { return position_; }
-  study::StepState state() const override { return {done, position_, {}, {}, {}}; }
+  study::StepState state() const override { return {done, position_, {}, {}, {}, {}, {}}; }
   void restore(const study::StepState& state, const std::vector<study::SignalRange>&) override {
     done = state.step;
   }
