@@ -120,8 +120,8 @@ study::RunResult fly(Begun& run, std::string& trouble) {
   if (before > 0) progress.say(fmt::format("checkpoint: goes on behind {} of {} steps", before, steps));
   if (before == 0 && run.every > 0)
     safe.save(*run.level.motion); // a kill before the first K steps is resumable
-  auto result = study::simulate(*run.level.motion, steps, {run.files.get(), &safe, &progress},
-                                      stop_requested, run.earlier);
+  auto result = study::simulate(*run.level.motion, steps, {run.files.get(), &safe, &progress}, stop_requested,
+                                run.earlier);
   try {
     if (result.outcome == study::Outcome::interrupted) safe.save(*run.level.motion);
   } catch (const record::WriteError& error) {

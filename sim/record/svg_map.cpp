@@ -11,7 +11,7 @@ namespace hopmesh::record {
 
 namespace {
 
-constexpr double side = 380, gap = 46, left = 86, top = 104, below = 128;
+constexpr double side = 380, gap = 46, left = 86, top = 104, below = 108;
 constexpr const char* strokes[] = {"none", "7 4", "2 4"}; // dashes of the first, second and third line
 
 class Drawing {
@@ -25,7 +25,7 @@ class Drawing {
   std::string text() {
     const std::size_t rows = (map_.panels.size() + columns_ - 1) / columns_;
     const double width = std::max(640.0, left + double(columns_) * (side + gap));
-    const double height = top + double(rows) * (side + 84) + below - 60;
+    const double height = top + double(rows) * (side + 84) + below - 20;
     put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"12\" fill=\"#222\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"{2}\" y=\"38\" font-size=\"20\" "
@@ -33,7 +33,7 @@ class Drawing {
         width, height, left, xml(map_.title));
     for (std::size_t p = 0; p < map_.panels.size(); ++p)
       panel(p, left + double(p % columns_) * (side + gap), top + double(p / columns_) * (side + 84));
-    legend(height - below + 74);
+    legend(height - below + 16);
     return out_ + "</svg>\n";
   }
 
