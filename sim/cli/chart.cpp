@@ -100,7 +100,7 @@ void add_line(const CsvTable& table, const std::string& x, const char* method, c
 
 std::string axis_label(const std::string& column) {
   if (column.find("seconds") != std::string::npos) return column + ", s";
-  return column.find("@") != std::string::npos || column == "position_error" ? column + " (rms), m" : column;
+  return column.find('@') != std::string::npos || column == "position_error" ? column + " (rms), m" : column;
 }
 
 int chart(ChartOptions o) {

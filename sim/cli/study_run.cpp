@@ -133,7 +133,7 @@ std::shared_ptr<study::Motion> motion_of(const std::string& method, const scene:
   kept->prepared = {inputs, std::make_unique<study::BuiltMesh>(inputs.scene)};
   kept->level = make_level(method, kept->prepared, check, {{}, {}, true});
   study::Motion* motion = kept->level.motion.get();
-  return {std::move(kept), motion};
+  return {kept, motion};
 }
 
 } // namespace

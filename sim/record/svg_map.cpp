@@ -31,8 +31,10 @@ class Drawing {
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"{2}\" y=\"38\" font-size=\"20\" "
         "font-weight=\"600\">{3}</text>\n",
         width, height, left, xml(map_.title));
-    for (std::size_t p = 0; p < map_.panels.size(); ++p)
-      panel(p, left + double(p % columns_) * (side + gap), top + double(p / columns_) * (side + 84));
+    for (std::size_t p = 0; p < map_.panels.size(); ++p) {
+      const std::size_t row = p / columns_, column = p % columns_;
+      panel(p, left + double(column) * (side + gap), top + double(row) * (side + 84));
+    }
     legend(height - below + 16);
     return out_ + "</svg>\n";
   }

@@ -32,6 +32,7 @@ std::string in_toml_quotes(const std::string& text) {
 /// A value as an override takes it back.
 std::string toml_text(const TomlValue& value) {
   if (const auto* text = value.as<std::string>()) return in_toml_quotes(*text);
+  if (const auto* real = value.as<double>()) return fmt::format("{}", *real); // describe's 3.e-05 is no TOML
   const auto* items = value.as<std::vector<TomlValue>>();
   if (!items) return describe(value);
   std::vector<std::string> texts;

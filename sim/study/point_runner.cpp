@@ -17,7 +17,8 @@ using Positions = std::vector<double>;
 double rms_distance(const Positions& a, const Positions& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum / static_cast<double>(a.size() / 3));
+  const std::size_t nodes = a.size() / 3;
+  return std::sqrt(sum / static_cast<double>(nodes));
 }
 
 /// Keeps the positions at the ends of a few steps.

@@ -19,14 +19,15 @@ std::string refusal(const std::string& text) {
 
 TEST(StudyFile, PlainAxesKeepTheFilesOrderAndTheirValuesAsToml) {
   const Study s =
-      study_of(start + "[axes]\n\"relax.threshold\" = [1e-2, 1]\n\"mesh.pinned\" = [\"left\", [0, 1]]\n"
+      study_of(start + "[axes]\n\"relax.threshold\" = [3e-5, 1]\n\"mesh.pinned\" = [\"left\", [0, 1]]\n"
                        "motion.time_step = [0.5]\n",
                "s.toml");
   ASSERT_EQ(s.axes.size(), 3u);
   EXPECT_EQ(s.axes[0].name, "relax.threshold");
   EXPECT_EQ(s.axes[1].name, "mesh.pinned");
   EXPECT_EQ(s.axes[2].name, "motion.time_step");
-  EXPECT_EQ(s.axes[0].places[0].label, "0.01");
+  EXPECT_EQ(s.axes[0].places[0].label, "3e-05");
+  EXPECT_EQ(s.axes[0].places[0].settings[0].text, "3e-05");
   EXPECT_EQ(s.axes[1].places[0].settings[0].text, "\"left\"");
   EXPECT_EQ(s.axes[1].places[1].settings[0].text, "[0, 1]");
   EXPECT_EQ(s.axes[1].places[1].settings[0].line, 4);
