@@ -62,6 +62,9 @@ int program(int argc, char** argv) {
   cli::add_info(app, exit_code);
   cli::add_vectors(app, exit_code);
   cli::add_fuzz(app, exit_code);
+  cli::add_sweep(app, exit_code);
+  cli::add_chart(app, exit_code);
+  cli::add_stability(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -5,6 +5,7 @@
 #include "sim/cli/progress.h"
 #include "sim/cli/systemc_port.h"
 #include "sim/engine/choose.h"
+#include "sim/study/study_points.h"
 
 #include <algorithm>
 #include <charconv>
@@ -31,12 +32,7 @@ void add_common(CLI::App& verb, CommonOptions& options) {
 }
 
 std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_-./=:,") == std::string::npos)
-    return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  return study::shell_word(word);
 }
 
 std::string words_of(const CommonOptions& options) {
@@ -67,7 +63,7 @@ std::unique_ptr<study::ArrayPort> make_engine(const spec::ArraySpec& array, cons
   useful.threads = engine::useful_threads(topology, useful.threads);
   auto port = std::make_unique<EnginePort>(array, topology, useful, request.wave, stop_requested);
   const std::string why = port->engine().why_no_kernel();
-  if (!why.empty())
+  if (!why.empty() && !request.quiet)
     fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
   return port;
 }

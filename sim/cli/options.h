@@ -49,6 +49,7 @@ struct Level {
 struct PortRequest {
   WaveRequest wave;
   engine::Options engine;
+  bool quiet = false; ///< no word on what only costs time: a study would say it for each point
 };
 
 /// reference, engine, systemc, systemc-clock.
@@ -63,5 +64,8 @@ void add_network(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_vectors(CLI::App& program, int& exit_code);
 void add_fuzz(CLI::App& program, int& exit_code);
+void add_sweep(CLI::App& program, int& exit_code);
+void add_chart(CLI::App& program, int& exit_code);
+void add_stability(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

@@ -69,16 +69,15 @@ FigureTable cycles(const BuiltMesh& mesh, const spec::ArraySpec& array, const sp
 }
 
 FigureTable memory(const BuiltMesh& mesh, const spec::ArraySpec& array) {
-  const spec::Topology& t = mesh.topology();
-  const spec::Formats& f = array.formats;
-  const auto kib = [](double bits) { return fmt::format("{:.1f} KiB", bits / 8192); };
-  const auto accumulator = spec::accumulator_format(array, t.most_taps());
-  const double neurons = static_cast<double>(t.neurons());
+  const auto kib = [](std::uint64_t bits) {
+    return fmt::format("{:.1f} KiB", static_cast<double>(bits) / 8192);
+  };
+  const MemoryBits bits = memory_bits(mesh, array);
   return {"Memory",
-          {{"weights", kib(static_cast<double>(t.weight_words()) * f.weight.width)},
-           {"biases", kib(neurons * f.bias.width)},
-           {"states and links", kib(neurons * (f.state.width + f.link.width))},
-           {"accumulators", kib(neurons * accumulator.width)}}};
+          {{"weights", kib(bits.weights)},
+           {"biases", kib(bits.biases)},
+           {"states and links", kib(bits.states_and_links)},
+           {"accumulators", kib(bits.accumulators)}}};
 }
 
 FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
@@ -104,6 +103,18 @@ FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
 }
 
 } // namespace
+
+MemoryBits memory_bits(const BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Formats& f = array.formats;
+  const auto width = [](const spec::NumberFormat& format) {
+    return static_cast<std::uint64_t>(format.width);
+  };
+  const std::uint64_t neurons = t.neurons();
+  return {t.weight_words() * width(f.weight), neurons * width(f.bias),
+          neurons * (width(f.state) + width(f.link)),
+          neurons * width(spec::accumulator_format(array, t.most_taps()))};
+}
 
 std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
                                     const spec::ArraySpec& array) {

@@ -14,6 +14,13 @@ using FigureTable = std::pair<std::string, std::vector<record::Figure>>;
 std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
                                     const spec::ArraySpec& array);
 
+/// What the array's memories hold, in bits.
+struct MemoryBits {
+  std::uint64_t weights = 0, biases = 0, states_and_links = 0, accumulators = 0;
+  std::uint64_t total() const { return weights + biases + states_and_links + accumulators; }
+};
+MemoryBits memory_bits(const BuiltMesh& mesh, const spec::ArraySpec& array);
+
 /// The tables as aligned text.
 std::string text_of(const std::vector<FigureTable>& tables);
 

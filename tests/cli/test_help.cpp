@@ -28,7 +28,8 @@ class CliHelp : public Cli {
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb : {"run", "compare", "network", "info", "vectors", "fuzz"})
+  for (const char* verb :
+       {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart", "stability"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -59,6 +60,15 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
   expect_flags("network", {"step", "out"});
   expect_flags("info", {"toml"});
   expect_flags("vectors", {"step", "sweeps", "random", "seed", "out", "blank", "check", "level"});
+}
+
+TEST_F(CliHelp, OfStudiesTellsEveryFlag) {
+  for (const char* verb : {"sweep", "stability"}) {
+    const std::string help = good(std::string(verb) + " --help").out;
+    for (const char* flag : {"STUDY", "--out", "-j", "--executor", "--share"})
+      EXPECT_THAT(help, HasSubstr(flag));
+  }
+  for (const char* flag : {"DIR", "--x", "--y"}) EXPECT_THAT(good("chart --help").out, HasSubstr(flag));
 }
 
 TEST_F(CliHelp, VersionNamesVersionCommitAndCompiler) {

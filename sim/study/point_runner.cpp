@@ -1,0 +1,121 @@
+#include "sim/study/point_runner.h"
+
+#include "rtl_model/spec/schedule.h"
+#include "sim/study/array_info.h"
+#include "sim/study/reference_motion.h"
+#include "sim/study/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hopmesh::study {
+
+namespace {
+
+using Positions = std::vector<double>;
+
+double rms_distance(const Positions& a, const Positions& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  const std::size_t nodes = a.size() / 3;
+  return std::sqrt(sum / static_cast<double>(nodes));
+}
+
+/// Keeps the positions at the ends of a few steps.
+class Snapshots : public StepSink {
+ public:
+  Snapshots(const std::vector<double>& times, double time_step) {
+    for (double time : times) wanted_.push_back(step_of_time(time, time_step));
+    at.resize(wanted_.size());
+  }
+  void step(const StepRow& row, const Motion& motion) override {
+    for (std::size_t k = 0; k < wanted_.size(); ++k)
+      if (row.step + 1 == wanted_[k]) at[k] = motion.positions();
+  }
+  std::vector<Positions> at; ///< empty where the motion did not come so far
+
+ private:
+  std::vector<std::uint64_t> wanted_;
+};
+
+std::vector<Maybe> distances(const std::vector<Positions>& ours, const std::vector<Positions>& theirs) {
+  std::vector<Maybe> all(ours.size());
+  for (std::size_t k = 0; k < ours.size() && k < theirs.size(); ++k)
+    if (!ours[k].empty() && ours[k].size() == theirs[k].size()) all[k] = rms_distance(ours[k], theirs[k]);
+  return all;
+}
+
+// A multiplication an input, one for R u, and one by the reciprocal where there is one.
+std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topology& t) {
+  std::uint64_t count = 0;
+  const std::uint64_t more = 1 + (array.normaliser == spec::Normaliser::reciprocal);
+  for (std::size_t c = 0; c < t.cells(); ++c) count += t.neurons_per_cell * (t.taps(c) + more);
+  return count;
+}
+
+void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMesh& mesh, PointRow& row) {
+  double squares = 0;
+  bool judged = false;
+  for (const StepRow& step : result.rows) {
+    row.sweeps += step.sweeps, row.cycles += step.cycles, row.bus_cycles += step.bus_cycles;
+    row.largest_strain = std::max(row.largest_strain, step.max_strain);
+    if (step.error) judged = true, squares += step.error->rms_output * step.error->rms_output;
+  }
+  row.steps = result.rows.size();
+  if (judged) row.output_error = std::sqrt(squares / static_cast<double>(row.steps));
+  row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
+  row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
+  if (row.cycles > 0) row.memory_bits = memory_bits(mesh, inputs.array).total();
+}
+
+void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const PointAsk& ask,
+                       const Snapshots& ours, const Positions& last, const std::atomic<bool>& stop,
+                       PointRow& row) {
+  ReferenceMotion motion(inputs.scene, mesh, inputs.array.schedule);
+  Snapshots theirs(ask.times, inputs.scene.motion.time_step);
+  const RunResult result = simulate(motion, row.steps, {&theirs}, stop);
+  if (result.rows.size() == row.steps) row.position_error = rms_distance(last, motion.positions());
+  row.reference_at = distances(ours.at, theirs.at);
+}
+
+StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, const RunResult& result) {
+  StabilityFacts facts;
+  facts.diverged = result.outcome == Outcome::diverged;
+  facts.synchronous = inputs.array.schedule == spec::Schedule::synchronous;
+  facts.outputs = mesh.topology().neurons();
+  facts.friction = inputs.scene.motion.friction;
+  return facts;
+}
+
+} // namespace
+
+std::uint64_t step_of_time(double time, double time_step) {
+  return static_cast<std::uint64_t>(std::llround(time / time_step));
+}
+
+PointRow run_point(const Point& point, const scene::Inputs& inputs, const PointAsk& ask,
+                   const Methods& methods, const std::atomic<bool>& stop) {
+  const BuiltMesh mesh(inputs.scene);
+  const auto motion = methods.make(point.method, inputs, mesh, ask.reference);
+  Snapshots ours(ask.times, inputs.scene.motion.time_step);
+  const auto steps = static_cast<std::uint64_t>(inputs.scene.motion.steps);
+  const RunResult result = simulate(*motion, steps, {&ours}, stop);
+  PointRow row;
+  row.status = result.outcome == Outcome::diverged   ? "diverged"
+               : result.outcome == Outcome::finished ? "finished"
+                                                     : "interrupted";
+  row.sentence = result.sentence;
+  row.host_seconds = result.wall_seconds;
+  sum_up(result, inputs, mesh, row);
+  row.omega = largest_frequency(mesh.mesh());
+  row.stability = classify(result.rows, facts_of(inputs, mesh, result));
+  row.reference_at.resize(ask.times.size());
+  row.truth_at.resize(ask.times.size());
+  if (ask.reference && row.steps > 0)
+    against_reference(inputs, mesh, ask, ours, motion->positions(), stop, row);
+  if (methods.truth && !ask.times.empty())
+    row.truth_at = distances(ours.at, methods.truth(inputs, mesh, ask.times));
+  return row;
+}
+
+} // namespace hopmesh::study

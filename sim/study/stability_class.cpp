@@ -1,0 +1,66 @@
+#include "sim/study/stability_class.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hopmesh::study {
+
+namespace {
+
+using Rows = std::vector<StepRow>;
+
+/// The mean of a figure over the k-th quarter of the rows, k = 0..3.
+template <typename Figure> double quarter(const Rows& rows, std::size_t k, Figure figure) {
+  const std::size_t from = rows.size() * k / 4, to = rows.size() * (k + 1) / 4;
+  double sum = 0;
+  for (std::size_t r = from; r < to; ++r) sum += figure(rows[r]);
+  return sum / static_cast<double>(to - from);
+}
+
+template <typename Holds> bool mostly(const Rows& rows, Holds holds) {
+  const auto count = std::count_if(rows.begin(), rows.end(), holds);
+  return static_cast<double>(count) > most_of * static_cast<double>(rows.size());
+}
+
+bool gains_energy(const Rows& rows) {
+  const auto total = [](const StepRow& r) { return r.energy + r.kinetic; };
+  return rows.size() >= least_rows && quarter(rows, 3, total) > gain_factor * quarter(rows, 2, total);
+}
+
+bool is_saturated(const Rows& rows, std::size_t outputs) {
+  return mostly(rows, [outputs](const StepRow& r) {
+    return static_cast<double>(r.saturated) > most_of * static_cast<double>(outputs);
+  });
+}
+
+bool stalls(const Rows& rows) {
+  return mostly(rows, [](const StepRow& r) {
+    return r.converged && r.sweeps <= stall_sweeps && r.error && r.error->rms_output > stall_error;
+  });
+}
+
+// Friction leaves a velocity `friction` a step, an energy its square.
+bool is_over_damped(const Rows& rows, double friction) {
+  if (rows.size() < least_rows) return false;
+  const auto kinetic = [](const StepRow& r) { return r.kinetic; };
+  const auto peak = std::max_element(
+      rows.begin(), rows.end(), [](const StepRow& a, const StepRow& b) { return a.kinetic < b.kinetic; });
+  const double left = std::pow(friction, 2.0 * static_cast<double>(rows.end() - peak));
+  return peak->kinetic > 0 && quarter(rows, 3, kinetic) < damped_share * left * peak->kinetic;
+}
+
+} // namespace
+
+Stability classify(const Rows& rows, const StabilityFacts& facts) {
+  const auto unfinished = [](const StepRow& r) { return !r.converged; };
+  if (facts.diverged) return Stability::blow_up;
+  if (gains_energy(rows)) return Stability::energy_gain;
+  if (facts.synchronous && mostly(rows, unfinished)) return Stability::limit_cycle;
+  if (is_saturated(rows, facts.outputs)) return Stability::saturated;
+  if (stalls(rows)) return Stability::lattice_stall;
+  if (mostly(rows, unfinished)) return Stability::falsely_soft;
+  if (is_over_damped(rows, facts.friction)) return Stability::over_damped;
+  return Stability::stable;
+}
+
+} // namespace hopmesh::study

@@ -1,0 +1,35 @@
+// A study's results folder: a safe file for each finished point, and results.csv made of them in the end.
+#pragma once
+
+#include "sim/record/folder_lock.h"
+#include "sim/study/study_points.h"
+
+namespace hopmesh::study {
+
+class StudyFolder {
+ public:
+  /// Takes up what is there. Throws InputError if it belongs to another study, or to this one before it was
+  /// changed (`hash`, of check_points). `alone`: lock the folder against other writers.
+  StudyFolder(const scene::Study& study, std::filesystem::path folder, std::uint64_t hash, bool alone);
+
+  bool has(std::size_t number) const;
+  /// Numbers of the points still to run.
+  std::vector<std::size_t> missing() const;
+  /// Safe from any kill once this returns.
+  void keep(const Point& point, const PointRow& row) const;
+  /// results.csv in the points' order, once all are there; says how many of each status.
+  std::map<std::string, std::size_t> collect() const;
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path file_of(std::size_t number) const;
+
+  const scene::Study& study_;
+  std::filesystem::path folder_;
+  std::optional<record::FolderLock> lock_;
+};
+
+/// Columns of results.csv.
+std::vector<std::string> result_columns(const scene::Study& study);
+
+} // namespace hopmesh::study

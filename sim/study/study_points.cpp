@@ -1,0 +1,120 @@
+#include "sim/study/study_points.h"
+
+#include "rtl_model/spec/array_rules.h"
+#include "sim/record/running_check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+namespace {
+
+std::string command_of(const scene::Study& study, const Point& point) {
+  std::string command = "hopmesh run " + shell_word(study.scene);
+  if (!study.array.empty()) command += " --array " + shell_word(study.array);
+  for (const std::string& override : point.overrides) command += " --set " + shell_word(override);
+  return command + " --level " + point.method;
+}
+
+/// The place on each axis that a point stands for.
+std::vector<const scene::AxisPlace*> places_of(const scene::Study& study, std::size_t number) {
+  std::vector<const scene::AxisPlace*> places(study.axes.size());
+  for (std::size_t a = study.axes.size(); a-- > 0;) {
+    const auto& all = study.axes[a].places;
+    places[a] = &all[number % all.size()];
+    number /= all.size();
+  }
+  return places;
+}
+
+// "--set: KEY: ..." is told by the study's line that set the key.
+scene::InputError placed(const scene::Study& study, std::size_t number, const std::string& what) {
+  const std::string by_override = "--set: ";
+  if (what.rfind(by_override, 0) != 0) return scene::InputError(what);
+  const std::string rest = what.substr(by_override.size());
+  for (const scene::AxisPlace* place : places_of(study, number))
+    for (const scene::StudySetting& s : place->settings)
+      if (rest.rfind(s.key, 0) == 0)
+        return scene::InputError(fmt::format("{}:{}: {}", study.path, s.line, rest));
+  return scene::InputError(study.path + ": " + rest);
+}
+
+void check_methods(const scene::Study& study, const Methods& methods) {
+  for (const std::string& name : study.methods)
+    if (std::find(methods.names.begin(), methods.names.end(), name) == methods.names.end())
+      throw scene::input_error(study.path, study.methods_line, "methods", scene::in_quotes(name),
+                               fmt::format("{}", fmt::join(methods.names, ", ")),
+                               scene::nearest_name(name, methods.names));
+}
+
+void check_times(const scene::Study& study, const scene::MotionSpec& motion) {
+  for (double time : study.times) {
+    const std::uint64_t step = step_of_time(time, motion.time_step);
+    if (step < 1 || step > static_cast<std::uint64_t>(motion.steps))
+      throw scene::input_error(
+          study.path, study.times_line, "times", fmt::format("{}", time),
+          fmt::format("a time within every point's motion; one lasts {} s in steps of {} s",
+                      motion.time_step * static_cast<double>(motion.steps), motion.time_step));
+  }
+}
+
+void check_point(const scene::Study& study, const Point& point, const scene::Inputs& inputs) {
+  const BuiltMesh mesh(inputs.scene);
+  if (const auto fault = spec::validate(inputs.array, mesh.topology().most_taps()))
+    throw placed(study, point.number,
+                 scene::input_error("--set", 0, fault->key, fault->found, fault->expected).what());
+  check_times(study, inputs.scene.motion);
+}
+
+} // namespace
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-./=:,") == std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+Point point_of(const scene::Study& study, std::size_t number) {
+  Point point;
+  point.number = number;
+  point.method = study.methods[number / (study.combinations() / study.methods.size())];
+  for (const scene::AxisPlace* place : places_of(study, number)) {
+    point.labels.push_back(place->label);
+    for (const scene::StudySetting& s : place->settings) point.overrides.push_back(s.key + '=' + s.text);
+  }
+  if (study.steps > 0) point.overrides.push_back(fmt::format("motion.steps={}", study.steps));
+  point.command = command_of(study, point);
+  return point;
+}
+
+scene::Inputs inputs_of(const scene::Study& study, const Point& point) {
+  try {
+    return scene::read_inputs(study.scene, study.array, point.overrides);
+  } catch (const scene::InputError& error) {
+    throw placed(study, point.number, error.what());
+  }
+}
+
+std::uint64_t check_points(const scene::Study& study, const Methods& methods) {
+  check_methods(study, methods);
+  record::RunningCheck check;
+  const auto add = [&check](const std::string& text) { check.add(text.data(), text.size() + 1); };
+  for (double time : study.times) add(fmt::format("{}", time));
+  for (const scene::StudyAxis& axis : study.axes) add(axis.name);
+  for (std::size_t n = 0; n < study.combinations(); ++n) {
+    const Point point = point_of(study, n);
+    const scene::Inputs inputs = inputs_of(study, point);
+    check_point(study, point, inputs);
+    add(point.method);
+    for (const std::string& label : point.labels) add(label);
+    add(scene::scene_text(inputs.scene));
+    add(scene::array_text(inputs.array));
+  }
+  return check.value();
+}
+
+} // namespace hopmesh::study

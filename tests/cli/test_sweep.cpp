@@ -1,0 +1,138 @@
+// hopmesh sweep, chart, stability: rows in order, kills, changed studies, points that diverge.
+#include "tests/cli/cli_test.h"
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace hopmesh::tests {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CliSweep : public Cli {
+ protected:
+  const std::string study = "scene = \"two-nodes\"\nsteps = 10\nmethods = [\"reference\", \"engine\"]\n"
+                            "times = [0.1]\n[axes]\n\"motion.time_step\" = [0.02, 0.05]\n"
+                            "\"array.lanes\" = [1, 2]\n";
+
+  /// Rows without the one column that may differ: the seconds of this machine.
+  std::vector<std::vector<std::string>> rows_of(const std::string& folder) const {
+    std::vector<std::vector<std::string>> rows;
+    std::size_t skip = 0;
+    for (const std::string& line : lines_of(content_of(at(folder) / "results.csv"))) {
+      auto cells = split(line, ',');
+      for (std::size_t k = 0; rows.empty() && k < cells.size(); ++k)
+        if (cells[k] == "host_seconds") skip = k;
+      cells.at(skip) = "";
+      rows.push_back(cells);
+    }
+    return rows;
+  }
+};
+
+TEST_F(CliSweep, HasARowAPointInOrderWhateverTheWorkers) {
+  write_text(at("s.toml"), study);
+  good("sweep s.toml --out one -j 1");
+  good("sweep s.toml --out two -j 3");
+  const auto rows = rows_of("one");
+  EXPECT_EQ(rows, rows_of("two"));
+  ASSERT_EQ(rows.size(), 1u + 2 * 2 * 2);
+  const std::vector<std::string> head(rows[0].begin(), rows[0].begin() + 10);
+  EXPECT_EQ(head, (std::vector<std::string>{"point", "motion.time_step", "array.lanes", "method", "status",
+                                            "class", "output_error", "position_error", "reference_error@0.1",
+                                            "truth_error@0.1"}));
+  EXPECT_EQ(std::vector<std::string>(rows[6].begin(), rows[6].begin() + 5),
+            (std::vector<std::string>{"5", "0.02", "2", "engine", "finished"}));
+  EXPECT_EQ(rows[1][7], "0") << "the reference against itself";
+  EXPECT_GT(std::stod(rows[6][7]), 0);
+}
+
+TEST_F(CliSweep, TheCommandOfARowRepeatsIt) {
+  write_text(at("s.toml"), study);
+  good("sweep s.toml --out r");
+  const auto row = rows_of("r").at(6);
+  const std::string command = row.back();
+  ASSERT_EQ(command.rfind("hopmesh run ", 0), 0u);
+  good(command.substr(8) + " --out again");
+  double sweeps = 0;
+  for (double s : read_table(at("again") / "steps.csv").numbers("sweeps")) sweeps += s;
+  EXPECT_EQ(row.at(11), std::to_string(static_cast<int>(sweeps)));
+}
+
+TEST_F(CliSweep, ADivergingPointIsARowAndStopsNobody) {
+  write_text(at("s.toml"), "scene = \"two-nodes\"\nsteps = 40\n[axes]\n\"probe.gamma\" = [1e9, 10.0]\n");
+  good("sweep s.toml --out r");
+  const auto rows = rows_of("r");
+  EXPECT_EQ(rows.at(1).at(3), "diverged");
+  EXPECT_EQ(rows.at(1).at(4), "blow-up");
+  EXPECT_EQ(rows.at(2).at(3), "finished");
+  good("chart r");
+  EXPECT_THAT(content_of(at("r") / "chart.svg"), HasSubstr("class=\"point failed\""));
+}
+
+TEST_F(CliSweep, GoesOnAfterKillsAndInterrupts) {
+  write_text(at("s.toml"), "scene = \"flag-225\"\nsteps = 12\n[axes]\n\"relax.threshold\" = [1e-3, 1e-4]\n"
+                           "\"motion.time_step\" = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06]\n");
+  good("sweep s.toml --out unbroken");
+  std::size_t broken = 0;
+  for (const int signal : {SIGKILL, SIGINT, SIGKILL}) {
+    Program program(words_of("sweep s.toml --out r -j 2"), around);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    program.send(signal);
+    const Finished f = program.finish();
+    EXPECT_TRUE(f.signal == SIGKILL || f.exit_code == 130 || f.exit_code == 0) << f.exit_code << f.err;
+    broken += f.exit_code != 0;
+  }
+  EXPECT_GT(broken, 0u) << "nothing was broken off: is the test blind?";
+  good("sweep s.toml --out r -j 2");
+  EXPECT_EQ(rows_of("r"), rows_of("unbroken"));
+}
+
+TEST_F(CliSweep, SharesTogetherAreTheWhole) {
+  write_text(at("s.toml"), study);
+  EXPECT_THAT(good("sweep s.toml --out r --share 0/2").out, HasSubstr("4 of 8 points"));
+  EXPECT_FALSE(std::filesystem::exists(at("r") / "results.csv"));
+  good("sweep s.toml --out r --share 1/2");
+  good("sweep s.toml --out r");
+  good("sweep s.toml --out whole");
+  EXPECT_EQ(rows_of("r").size(), rows_of("whole").size());
+}
+
+TEST_F(CliSweep, AChangedStudyIsRefused) {
+  write_text(at("s.toml"), study);
+  good("sweep s.toml --out r");
+  write_text(at("s.toml"), study + "\"relax.threshold\" = [1e-3]\n");
+  const Finished f = hopmesh("sweep s.toml --out r");
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, HasSubstr("before a change"));
+}
+
+TEST_F(CliSweep, MistakesAreToldByLineBeforeAnythingRuns) {
+  const auto refused = [this](const std::string& more, const std::string& words) {
+    write_text(at("s.toml"), "scene = \"two-nodes\"\nsteps = 10\n" + more);
+    const Finished f = hopmesh("sweep s.toml --out r");
+    EXPECT_EQ(f.exit_code, 2) << more;
+    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+    EXPECT_THAT(f.err, HasSubstr(words));
+    EXPECT_FALSE(std::filesystem::exists(at("r"))) << more;
+  };
+  refused("[axes]\n\"probe.gmma\" = [1, 2]\n", "s.toml:4: probe.gmma: found an unknown key");
+  refused("[axes]\n\"probe.gamma\" = []\n", "s.toml:4: ");
+  refused("[axes]\n\"array.lanes\" = [1, 0]\n", "s.toml:4: array.lanes: found 0");
+  refused("times = [100]\n", "s.toml:3: times: found 100");
+  refused("methods = [\"engin\"]\n", "mean engine?");
+}
+
+TEST_F(CliSweep, AMapHasAClassACellAndItsPredictedLines) {
+  good("stability first-map --out m");
+  EXPECT_EQ(lines_of(content_of(at("m") / "stability.csv")).size(), 1u + 4 * 3 * 2);
+  const std::string svg = content_of(at("m") / "stability.svg");
+  for (const char* words : {"engine, memoryless", "engine, literal", "dt omega = 2.83", "blow-up"})
+    EXPECT_THAT(svg, HasSubstr(words));
+  write_text(at("s.toml"), "scene = \"two-nodes\"\n[axes]\n\"probe.gamma\" = [1, 2]\n");
+  EXPECT_THAT(hopmesh("stability s.toml").err, HasSubstr("s.toml:3: axes: found 1 axes of numbers"));
+}
+
+} // namespace
+} // namespace hopmesh::tests

@@ -1,0 +1,82 @@
+// Charts: the Pareto front, what is drawn where, and tables read back.
+#include "sim/record/svg_chart.h"
+
+#include "sim/record/chart_page.h"
+#include "sim/record/svg_map.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace hopmesh::record {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Pareto, KeepsWhatNobodyBeatsInBoth) {
+  std::vector<ChartPoint> points;
+  for (const auto& [x, y] :
+       std::vector<std::pair<double, double>>{{3, 1}, {1, 4}, {2, 4}, {2, 2}, {4, 1}, {1, 5}})
+    points.push_back({x, y, false, "", ""});
+  std::vector<std::pair<double, double>> found;
+  for (const ChartPoint& p : pareto_front(points)) found.emplace_back(p.x, p.y);
+  EXPECT_EQ(found, (std::vector<std::pair<double, double>>{{1, 4}, {2, 2}, {3, 1}}));
+}
+
+TEST(SvgChart, FailedPointsAreHollowAndZerosAreCounted) {
+  Chart chart;
+  chart.series = {{"a<b",
+                   {{{1, 1, false, "one", "run <1>"},
+                     {10, 0.1, false, "", ""},
+                     {0, 1, false, "", ""},
+                     {0, 2, true, "", ""}}}}};
+  chart.lines = {{0.5, "floor"}};
+  const std::string svg = svg_of(chart);
+  EXPECT_EQ(count_of(svg, "class=\"point\""), 2u);
+  EXPECT_EQ(count_of(svg, "class=\"point failed\""), 1u);
+  EXPECT_THAT(svg, HasSubstr("1 points have no place here"));
+  EXPECT_THAT(svg, HasSubstr("a&lt;b"));
+  EXPECT_THAT(svg, HasSubstr("data-command=\"run &lt;1&gt;\""));
+  EXPECT_THAT(svg, HasSubstr(">floor</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg_of(Chart{}), Not(HasSubstr("nan"))) << "nothing to draw";
+}
+
+TEST(SvgMap, PlacesAreLogarithmicBetweenCellsMiddles) {
+  EXPECT_DOUBLE_EQ(place_among({1, 10, 100}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(place_among({1, 10, 100}, 100), 2.5);
+  EXPECT_NEAR(place_among({1, 10, 100}, std::sqrt(10.0)), 1.0, 1e-12);
+  EXPECT_NEAR(place_among({1, 10, 100}, 1000), 3.5, 1e-12);
+  EXPECT_NEAR(place_among({0, 10}, 5), 1.0, 1e-12) << "linear where a value is 0";
+}
+
+TEST(SvgMap, HasACellAPoint) {
+  CellMap map{"m", "x", "y", {1, 2}, {1, 2, 3}, {{"stable", "#123456"}}, {}};
+  map.panels.push_back({"p", std::vector<std::vector<MapCell>>(3, std::vector<MapCell>(2)), {}});
+  EXPECT_EQ(count_of(svg_of(map), "class=\"cell\""), 6u);
+}
+
+TEST(CsvTable, ReadsQuotesLineBreaksAndNumbers) {
+  const CsvTable t = parse_csv("a,b\n1,\"x, \"\"y\"\"\nz\"\n,inf\n", "t.csv");
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_EQ(t.text(0, "b"), "x, \"y\"\nz");
+  EXPECT_EQ(t.number(0, "a"), 1.0);
+  EXPECT_EQ(t.number(1, "a"), std::nullopt);
+  EXPECT_EQ(t.number(1, "b"), std::nullopt);
+  EXPECT_THROW(parse_csv("a,b\n1\n", "t.csv"), std::runtime_error);
+}
+
+TEST(ChartPage, ShowsTheTableAndNoForeignMarkup) {
+  const std::string page = chart_page("<t>", "<svg/>", parse_csv("a\n<script>\n", "t"));
+  EXPECT_THAT(page, HasSubstr("<td>&lt;script&gt;</td>"));
+  EXPECT_THAT(page, HasSubstr("<title>&lt;t&gt;</title>"));
+}
+
+} // namespace
+} // namespace hopmesh::record

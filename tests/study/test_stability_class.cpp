@@ -1,0 +1,71 @@
+// One run made by hand for each class, and each border from both sides.
+#include "sim/study/stability_class.h"
+
+#include <gtest/gtest.h>
+
+namespace hopmesh::study {
+namespace {
+
+/// 40 steps of a swing: total energy 1, ten sweeps, at rest after each.
+std::vector<StepRow> swing() {
+  std::vector<StepRow> rows(40);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].step = k, rows[k].sweeps = 10, rows[k].converged = true;
+    rows[k].kinetic = rows[k].energy = 0.5;
+  }
+  return rows;
+}
+
+const StabilityFacts plain{false, false, 100, 1.0};
+
+TEST(StabilityClass, ASwingIsStable) {
+  EXPECT_EQ(classify(swing(), plain), Stability::stable);
+  EXPECT_EQ(classify({}, plain), Stability::stable);
+}
+
+TEST(StabilityClass, DivergedIsBlowUp) {
+  EXPECT_EQ(classify(swing(), {true, false, 100, 1.0}), Stability::blow_up);
+}
+
+TEST(StabilityClass, EnergyGainIsAMultipleOfTheThirdQuarter) {
+  auto rows = swing();
+  for (std::size_t k = 30; k < 40; ++k) rows[k].kinetic = gain_factor - 0.5 + 0.01;
+  EXPECT_EQ(classify(rows, plain), Stability::energy_gain);
+  for (std::size_t k = 30; k < 40; ++k) rows[k].kinetic = gain_factor - 0.5 - 0.01;
+  EXPECT_EQ(classify(rows, plain), Stability::stable);
+}
+
+TEST(StabilityClass, UnfinishedIsFalselySoftOrASynchronousLimitCycle) {
+  auto rows = swing();
+  for (std::size_t k = 0; k < 20; ++k) rows[k].converged = false;
+  EXPECT_EQ(classify(rows, plain), Stability::stable) << "half is not most";
+  rows[20].converged = false;
+  EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
+  EXPECT_EQ(classify(rows, {false, true, 100, 1.0}), Stability::limit_cycle);
+}
+
+TEST(StabilityClass, SaturatedIsMostOutputsInMostSteps) {
+  auto rows = swing();
+  for (StepRow& row : rows) row.saturated = 50;
+  EXPECT_EQ(classify(rows, plain), Stability::stable);
+  for (StepRow& row : rows) row.saturated = 51;
+  EXPECT_EQ(classify(rows, plain), Stability::saturated);
+}
+
+TEST(StabilityClass, ALatticeStallRestsAtOnceAndIsWrong) {
+  auto rows = swing();
+  for (StepRow& row : rows) row.sweeps = stall_sweeps, row.error.emplace().rms_output = stall_error * 1.1;
+  EXPECT_EQ(classify(rows, plain), Stability::lattice_stall);
+  for (StepRow& row : rows) row.error->rms_output = stall_error * 0.9;
+  EXPECT_EQ(classify(rows, plain), Stability::stable) << "at rest, and rightly so";
+}
+
+TEST(StabilityClass, OverDampedDiesFasterThanFrictionExplains) {
+  auto rows = swing();
+  for (std::size_t k = 10; k < 40; ++k) rows[k].kinetic = 1e-4;
+  EXPECT_EQ(classify(rows, plain), Stability::over_damped);
+  EXPECT_EQ(classify(rows, {false, false, 100, 0.85}), Stability::stable) << "0.85^80 of the peak is less";
+}
+
+} // namespace
+} // namespace hopmesh::study
