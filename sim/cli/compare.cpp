@@ -20,7 +20,7 @@ struct CompareOptions {
 int compare(CompareOptions& o) {
   const std::string inputs = words_of(o.common);
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
-  for (const std::string& level : o.levels) check_level(level, "--levels");
+  for (const std::string& level : o.levels) check_level(level, "--levels", level_names());
   const Prepared p = prepare(o.common);
   std::stable_partition(o.levels.begin(), o.levels.end(), [](const auto& l) { return l == "reference"; });
   for (const std::string& level : o.levels)

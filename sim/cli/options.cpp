@@ -3,6 +3,7 @@
 #include "rtl_model/spec/array_rules.h"
 #include "sim/cli/engine_port.h"
 #include "sim/cli/progress.h"
+#include "sim/cli/rival_motion.h"
 #include "sim/cli/systemc_port.h"
 #include "sim/engine/choose.h"
 #include "sim/study/study_points.h"
@@ -80,8 +81,13 @@ std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const Prepa
 
 } // namespace
 
-void check_level(const std::string& name, const std::string& flag) {
-  const auto& names = level_names();
+std::vector<std::string> method_names() {
+  std::vector<std::string> names = level_names();
+  names.insert(names.end(), rivals::names().begin(), rivals::names().end());
+  return names;
+}
+
+void check_level(const std::string& name, const std::string& flag, const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw scene::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
                              scene::nearest_name(name, names));
@@ -93,6 +99,11 @@ Level make_level(const std::string& name, const Prepared& p, bool check, const P
   const spec::ArraySpec& array = p.inputs.array;
   if (name == "reference") {
     level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array.schedule);
+    return level;
+  }
+  const auto& rivals = rivals::names();
+  if (std::find(rivals.begin(), rivals.end(), name) != rivals.end()) {
+    level.motion = std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
     return level;
   }
   level.port = make_port(name, p, request);

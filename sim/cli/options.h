@@ -54,8 +54,11 @@ struct PortRequest {
 
 /// reference, engine, systemc, systemc-clock.
 const std::vector<std::string>& level_names();
-/// Throws scene::InputError for any other name; `flag` is where it stood.
-void check_level(const std::string& name, const std::string& flag);
+/// Those and the rivals: everything that can fly a scene.
+std::vector<std::string> method_names();
+/// Throws scene::InputError for a name that is none of `names`; `flag` is where it stood.
+void check_level(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
+/// A level or a rival.
 Level make_level(const std::string& name, const Prepared& prepared, bool check, const PortRequest& request);
 
 void add_run(CLI::App& program, int& exit_code);

@@ -1,4 +1,5 @@
 // hopmesh run: one simulation, its files and its figures.
+#include "sim/cli/contestants.h"
 #include "sim/cli/options.h"
 #include "sim/cli/progress.h"
 #include "sim/record/output_file.h"
@@ -39,8 +40,9 @@ WaveRequest wave_of(const RunOptions& o) {
   if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))
     throw scene::input_error("", 0, o.wave_window.empty() ? "--wave-cells" : "--wave-window", "no --wave",
                              "--wave FILE.vcd");
-  if (!wave.file.empty() && o.level == "reference")
-    throw scene::input_error("", 0, "--wave", "level reference",
+  const auto& fixed = fixed_level_names();
+  if (!wave.file.empty() && std::find(fixed.begin(), fixed.end(), o.level) == fixed.end())
+    throw scene::input_error("", 0, "--wave", "level " + o.level,
                              "a level of the array: only those have signals");
   if (!o.wave_window.empty()) parse_window(o.wave_window, wave);
   if (!o.wave_cells.empty()) wave.cells = parse_cells(o.wave_cells);
@@ -63,7 +65,7 @@ struct Begun {
 };
 
 Begun begin(RunOptions& o) {
-  check_level(o.level, "--level");
+  check_level(o.level, "--level", method_names());
   const PortRequest request{wave_of(o), {static_cast<std::size_t>(o.threads)}};
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   Begun run{prepare(o.common), {}, {}, {}, static_cast<std::uint64_t>(o.checkpoint_every)};
@@ -85,7 +87,7 @@ Begun begin(RunOptions& o) {
 Begun begin_again(const RunOptions& o) {
   study::ResumedRun found = study::read_run(o.resume);
   const study::Checkpoint& saved = found.saved;
-  check_level(saved.level, saved.file);
+  check_level(saved.level, saved.file, method_names());
   const auto steps = static_cast<std::uint64_t>(o.steps);
   if (steps > 0 && steps <= saved.state.step)
     throw scene::input_error("", 0, "--steps", std::to_string(steps),
@@ -176,8 +178,11 @@ void add_run(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "one simulation");
   add_common(*verb, o->common);
-  verb->add_option("--level", o->level,
-                   "reference | engine | systemc | systemc-clock (every neuron woken at every clock)")
+  verb->add_option(
+          "--level", o->level,
+          "reference | engine | systemc | systemc-clock (every neuron woken at every clock), or a "
+          "rival in double: symplectic_euler | velocity_verlet | rk4 | backward_euler | bdf2 | xpbd | "
+          "projective_dynamics")
       ->capture_default_str();
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");

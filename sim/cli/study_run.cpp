@@ -2,6 +2,7 @@
 
 #include "sim/cli/options.h"
 #include "sim/cli/progress.h"
+#include "sim/cli/truth_store.h"
 #include "sim/record/output_file.h"
 #include "sim/study/point_pool.h"
 #include "sim/study/study_folder.h"
@@ -151,15 +152,19 @@ void add_study(CLI::App& verb, StudyOptions& o) {
   verb.add_option("--share", o.share, "K/N: only the points K, K + N, ...: several machines, one folder");
 }
 
-study::Methods all_methods() {
-  return {level_names(), motion_of, {}};
+study::Methods all_methods(const fs::path& folder) {
+  const auto truth = [store = TruthStore(folder)](const scene::Inputs& inputs, const study::BuiltMesh& mesh,
+                                                  const std::vector<double>& times) {
+    return store.positions(inputs, mesh, times);
+  };
+  return {method_names(), motion_of, truth};
 }
 
 int run_study(const StudyOptions& o, const scene::Study& study, fs::path& where) {
-  const study::Methods methods = all_methods();
+  where = folder_of(o, study);
+  const study::Methods methods = all_methods(where);
   const Share share = share_of(o);
   const std::uint64_t hash = study::check_points(study, methods);
-  where = folder_of(o, study);
   const study::StudyFolder folder(study, where, hash, share.of == 1);
   catch_interrupts();
   const auto began = std::chrono::steady_clock::now();

@@ -17,8 +17,8 @@ struct StudyOptions {
 /// STUDY, --out, -j, --executor, --share.
 void add_study(CLI::App& verb, StudyOptions& options);
 
-/// Methods that a study may name. Rivals and the truth plug in here.
-study::Methods all_methods();
+/// Methods that a study may name: levels, rivals, and the truth, which lies in the study's folder.
+study::Methods all_methods(const std::filesystem::path& folder);
 
 /// Runs what is missing and, once nothing is, leaves results.csv. Returns an exit code; `folder`: where.
 int run_study(const StudyOptions& options, const scene::Study& study, std::filesystem::path& folder);

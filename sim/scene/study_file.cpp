@@ -110,8 +110,12 @@ class StudyReader {
     const TomlValue* found = keys_.value("times");
     if (!found) return;
     study_.times_line = found->line;
-    for (const TomlValue& item : list_at(*found, "times"))
-      study_.times.push_back(keys_.number(item, "times", above_zero));
+    for (const TomlValue& item : list_at(*found, "times")) {
+      const double time = keys_.number(item, "times", above_zero);
+      if (!study_.times.empty() && time <= study_.times.back())
+        throw source_.error(item, "times", "each time after the one before");
+      study_.times.push_back(time);
+    }
   }
 
   /// Every key under [axes] is a list, or belongs to a table with labels: an axis that sets several keys.

@@ -64,7 +64,7 @@ void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMes
   row.steps = result.rows.size();
   if (judged) row.output_error = std::sqrt(squares / static_cast<double>(row.steps));
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
-  row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
+  if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
   if (row.cycles > 0) row.memory_bits = memory_bits(mesh, inputs.array).total();
 }
 
@@ -83,7 +83,8 @@ StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, cons
   facts.diverged = result.outcome == Outcome::diverged;
   facts.synchronous = inputs.array.schedule == spec::Schedule::synchronous;
   facts.outputs = mesh.topology().neurons();
-  facts.friction = inputs.scene.motion.friction;
+  const scene::Scene& scene = inputs.scene;
+  facts.friction = scene.motion.friction / (1 + scene.force.drag * scene.motion.time_step);
   return facts;
 }
 

@@ -166,5 +166,20 @@ TEST_F(CliRun, SchedulesDifferInCycles) {
   EXPECT_GT(per_sweep[0], per_sweep[2]);
 }
 
+class CliRival : public Cli, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(CliRival, FliesLikeALevelButHasNoWaves) {
+  const std::string line = "banner --set motion.time_step=0.002 --set mesh.grid.rows=5 --level " + GetParam();
+  const std::filesystem::path whole = results_of(line + " --steps 12", "whole");
+  EXPECT_EQ(fault_of_results(whole, 12, false), "");
+  const Finished f = hopmesh("run " + line + " --wave w.vcd");
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, ::testing::HasSubstr("--wave: found level " + GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, CliRival,
+                         ::testing::Values("symplectic_euler", "velocity_verlet", "rk4", "backward_euler",
+                                           "bdf2", "xpbd", "projective_dynamics"));
+
 } // namespace
 } // namespace hopmesh::tests

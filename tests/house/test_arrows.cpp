@@ -33,6 +33,7 @@ const std::map<std::string, Rooms> allowed = {
 const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/cli"}},
     {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals"}},
+    {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
     {std::regex("toml.*"), {"sim/scene"}},
     {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/record"}},

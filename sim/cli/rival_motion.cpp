@@ -1,0 +1,71 @@
+#include "sim/cli/rival_motion.h"
+
+namespace hopmesh::cli {
+
+namespace {
+
+std::vector<double> values(const rivals::Vector& v) {
+  return {v.data(), v.data() + v.size()};
+}
+
+rivals::State state_of(const std::vector<double>& position, const std::vector<double>& velocity) {
+  const auto vector = [](const std::vector<double>& by_node) {
+    return rivals::by_component(
+        Eigen::Map<const rivals::Vector>(by_node.data(), static_cast<Eigen::Index>(by_node.size())));
+  };
+  return {vector(position), vector(velocity)};
+}
+
+} // namespace
+
+RivalMotion::RivalMotion(const std::string& name, const scene::Scene& scene, const study::BuiltMesh& mesh)
+    : mesh_(mesh), physics_(mesh.mesh(), rivals::surroundings_of(scene)), time_step_(scene.motion.time_step),
+      method_(rivals::make_method(name, physics_, time_step_)) {
+  keep();
+}
+
+void RivalMotion::keep() {
+  position_ = values(method_->positions());
+  velocity_ = values(method_->velocities());
+}
+
+study::StepRow RivalMotion::advance() {
+  const std::uint64_t before = method_->counters().iterations;
+  try {
+    method_->advance();
+  } catch (const rivals::Diverged& lost) {
+    throw study::Diverged(lost.what());
+  }
+  keep();
+  study::StepRow row;
+  row.step = step_++;
+  row.time = static_cast<double>(step_) * time_step_;
+  row.sweeps = method_->counters().iterations - before;
+  row.converged = true; // an iteration that does not converge has thrown
+  study::measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
+  row.hash = study::state_hash(state());
+  return row;
+}
+
+study::StepState RivalMotion::state() const {
+  study::StepState s;
+  s.step = step_;
+  s.position = position_;
+  s.velocity = velocity_;
+  if (const rivals::State* before = method_->before()) {
+    s.previous_position = values(rivals::by_node(before->position));
+    s.previous_velocity = values(rivals::by_node(before->velocity));
+  }
+  return s;
+}
+
+void RivalMotion::restore(const study::StepState& state, const std::vector<study::SignalRange>&) {
+  if (state.position.size() != position_.size()) throw std::logic_error("the state of another mesh");
+  step_ = state.step;
+  const rivals::State now = state_of(state.position, state.velocity);
+  const rivals::State before = state_of(state.previous_position, state.previous_velocity);
+  method_->go_on_from(now, state.previous_position.empty() ? nullptr : &before);
+  keep();
+}
+
+} // namespace hopmesh::cli

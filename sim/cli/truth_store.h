@@ -1,0 +1,24 @@
+// The exact motions that a study's points are measured against. Points of the same physics ask for the same
+// one: it is worked out once and lies in the study's folder.
+#pragma once
+
+#include "sim/scene/scene_file.h"
+#include "sim/study/built_mesh.h"
+
+#include <filesystem>
+
+namespace hopmesh::cli {
+
+class TruthStore {
+ public:
+  explicit TruthStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Positions [nodes * 3] at each of the times, ascending, s; empty where SUNDIALS gives up.
+  std::vector<std::vector<double>> positions(const scene::Inputs& inputs, const study::BuiltMesh& mesh,
+                                             const std::vector<double>& times) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+} // namespace hopmesh::cli

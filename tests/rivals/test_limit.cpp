@@ -1,0 +1,72 @@
+// Where explicit methods blow up: the largest frequency of the mesh says it.
+#include "sim/rivals/stiffness.h"
+#include "tests/rivals/meshes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace hopmesh::rivals::testing {
+namespace {
+
+// A chain of n free nodes, one end pinned, the other free: omega_j = 2 sqrt(k/m) sin((2j-1) pi / (4n + 2)).
+TEST(RivalsLimit, TheLargestFrequencyOfAChainIsInClosedForm) {
+  scene::Mesh mesh;
+  const std::uint32_t n = 12;
+  for (std::uint32_t k = 0; k <= n; ++k) {
+    mesh.position.push_back({0, 0, -double(k)});
+    mesh.pinned.push_back(k == 0);
+    if (k > 0) mesh.springs.push_back({{k - 1, k}, 7, 1});
+  }
+  mesh.mass = 0.4;
+  const Physics physics(mesh, {});
+  const double wanted = 2 * std::sqrt(14 / 0.4) * std::sin((2.0 * n - 1) * M_PI / (4 * n + 2));
+  EXPECT_NEAR(largest_omega(physics, physics.initial_state().position), wanted, 1e-4 * wanted);
+}
+
+/// Nearly at rest, disturbed a little everywhere: does the disturbance stay small?
+bool holds(const std::string& name, const Physics& physics, double time_step) {
+  State start = physics.initial_state();
+  for (Eigen::Index k = 0; k < start.velocity.size(); ++k)
+    if (physics.inverse_mass()[k] != 0) start.velocity[k] = 1e-9 * std::sin(1.0 + double(k * k % 997));
+  const auto method = make_method(name, physics, time_step);
+  method->start_from(start);
+  const Vector rest = physics.initial_state().position;
+  try {
+    for (int k = 0; k < 3000; ++k) method->advance();
+  } catch (const Diverged&) {
+    return false;
+  }
+  return (method->state().position - rest).lpNorm<Eigen::Infinity>() < 1e-6;
+}
+
+class RivalsStability : public ::testing::TestWithParam<std::tuple<std::string, double, double>> {};
+
+TEST_P(RivalsStability, EndsWhereTheFrequencySays) {
+  const auto& [name, limit, within] = GetParam();
+  const scene::Mesh mesh = sheet(8, 50);
+  const Physics physics(mesh, {});
+  const double omega = largest_omega(physics, physics.initial_state().position);
+  EXPECT_TRUE(holds(name, physics, (1 - within) * limit / omega));
+  EXPECT_FALSE(holds(name, physics, (1 + within) * limit / omega));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, RivalsStability,
+                         ::testing::Values(std::tuple("symplectic_euler", 2.0, 0.01),
+                                           std::tuple("velocity_verlet", 2.0, 0.01),
+                                           std::tuple("rk4", 2 * std::sqrt(2.0), 0.03)),
+                         [](const auto& made) { return std::get<0>(made.param); });
+
+TEST(RivalsLimit, WhoDivergesSaysSoInASentence) {
+  const scene::Mesh mesh = sheet(8, 50);
+  const Physics physics(mesh, banner_air);
+  const auto method = make_method("velocity_verlet", physics, 0.1);
+  try {
+    for (int k = 0; k < 1000; ++k) method->advance();
+    FAIL() << "still there";
+  } catch (const Diverged& lost) {
+    EXPECT_NE(std::string(lost.what()).find("velocity_verlet diverged in step"), std::string::npos);
+  }
+}
+
+} // namespace
+} // namespace hopmesh::rivals::testing
