@@ -35,6 +35,14 @@ bool has_numbers(const CsvTable& table, const std::string& name) {
   return false;
 }
 
+// Time of the array where every method that got to the end has one, else of this machine.
+std::string default_y(const CsvTable& table) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    if (table.text(r, "status") == "finished" && table.number(r, "array_seconds").value_or(0) == 0)
+      return "host_seconds";
+  return has_numbers(table, "array_seconds") ? "array_seconds" : "host_seconds";
+}
+
 // The last of a kind that says anything: the error that is worth most.
 std::string default_x(const CsvTable& table) {
   for (const char* kind : {"truth_error@", "reference_error@", "position_error", "output_error"})
@@ -118,7 +126,7 @@ int chart(ChartOptions o) {
   if (table.rows.empty())
     throw scene::input_error(results.string(), 1, "", "no row", "the results of a sweep");
   if (o.x.empty()) o.x = default_x(table);
-  if (o.y.empty()) o.y = has_numbers(table, "array_seconds") ? "array_seconds" : "host_seconds";
+  if (o.y.empty()) o.y = default_y(table);
   known_column(table, "--x", o.x), known_column(table, "--y", o.y);
   record::Chart c;
   c.title = fs::absolute(folder).lexically_normal().filename().string() + ": speed against accuracy";

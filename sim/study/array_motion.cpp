@@ -3,6 +3,7 @@
 #include "firmware/registers.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace hopmesh::study {
@@ -94,7 +95,12 @@ StepRow ArrayMotion::advance() {
   row.saturated = static_cast<std::uint64_t>(std::count_if(memory_.output.begin(), memory_.output.end(),
                                                            [](double V) { return std::fabs(V) >= 1; }));
   measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
-  if (check_) row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale);
+  if (check_) {
+    using Clock = std::chrono::steady_clock;
+    const auto began = Clock::now();
+    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale);
+    judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
+  }
   row.hash = hash();
   return row;
 }

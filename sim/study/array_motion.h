@@ -18,6 +18,7 @@ class ArrayMotion : public Motion {
   const std::vector<double>& positions() const override { return memory_.position; }
   std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.output)); }
   std::vector<SignalRange> ranges() const override;
+  double judging_seconds() const override { return judging_seconds_; }
   StepState state() const override;
   void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
 
@@ -42,6 +43,7 @@ class ArrayMotion : public Motion {
   std::vector<double> rest_;      ///< V that the last good step left: the next one works in memory_.output
   std::vector<SignalRange> seen_; ///< before restore()
   std::vector<std::uint32_t> buffer_;
+  double judging_seconds_ = 0;
 };
 
 /// The firmware's motion parameters of a scene; force is gravity plus wind.

@@ -106,7 +106,7 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const PointA
                : result.outcome == Outcome::finished ? "finished"
                                                      : "interrupted";
   row.sentence = result.sentence;
-  row.host_seconds = result.wall_seconds;
+  row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);
   row.omega = largest_frequency(mesh.mesh());
   row.stability = classify(result.rows, facts_of(inputs, mesh, result));

@@ -130,16 +130,16 @@ TEST_F(CliSweep, RivalsAndTheTruthStandBesideTheArray) {
   write_text(at("s.toml"),
              "scene = \"banner\"\nmethods = [\"engine\", \"backward_euler\", \"velocity_verlet\"]\n"
              "times = [0.1]\n[axes]\n\"mesh.grid.rows\" = [6]\n"
-             "[axes.step]\nlabel = [\"4 ms\", \"2 ms\"]\n"
-             "\"motion.time_step\" = [0.004, 0.002]\n\"motion.steps\" = [25, 50]\n");
+             "[axes.step]\nlabel = [\"2 ms\", \"1 ms\"]\n"
+             "\"motion.time_step\" = [0.002, 0.001]\n\"motion.steps\" = [50, 100]\n");
   good("sweep s.toml --out r");
   const Table t = read_table(at("r") / "results.csv");
   const std::vector<double> error = t.numbers("truth_error@0.1");
   ASSERT_EQ(error.size(), 6u);
-  EXPECT_NEAR(error[0], error[2], 0.1 * error[2]); // 4 ms
-  EXPECT_NEAR(error[1], error[3], 0.1 * error[3]); // 2 ms
+  EXPECT_NEAR(error[0], error[2], 0.1 * error[2]); // 2 ms
+  EXPECT_NEAR(error[1], error[3], 0.1 * error[3]); // 1 ms
   EXPECT_NEAR(error[2] / error[3], 2, 0.3);        // order 1
-  EXPECT_LT(error[4], 0.1 * error[2]);             // Verlet at 4 ms
+  EXPECT_LT(error[4], 0.1 * error[2]);             // Verlet at 2 ms
   std::size_t truths = 0;
   for (const std::string& name : names_in(at("r"))) truths += name.rfind("truth-", 0) == 0;
   EXPECT_EQ(truths, 1u) << "one physics, one truth";

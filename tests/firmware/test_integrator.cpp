@@ -153,6 +153,7 @@ TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
     Moving moving(pair);
     const std::uint32_t node = mesh.node_of_cell[cell];
     hm_motion wild = motion;
+    wild.rule = HM_PROBE;
     wild.gamma = 0; // nobody else is pushed
     wild.acceleration_memory = 0;
     wild.friction = 1e308;
@@ -163,6 +164,27 @@ TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
     EXPECT_EQ(result.lost_node, node);
     EXPECT_EQ(moving.position, before.position);
     EXPECT_EQ(moving.velocity, before.velocity);
+    EXPECT_EQ(moving.acceleration, before.acceleration);
+    EXPECT_EQ(moving.state.step, 0u);
+  }
+}
+
+TEST(Integrator, AnImplicitStepThatIsLostChangesNothing) {
+  Dice dice(9);
+  Pair pair(random_scene_mesh(dice, false));
+  for (const int rule : {HM_BACKWARD_EULER, HM_BDF2}) {
+    Moving moving(pair);
+    hm_motion wild = random_motion(dice);
+    wild.rule = rule;
+    wild.friction = 1e308;
+    moving.velocity[3 * pair.firmware.mesh.node_of_cell[0]] = 1e10;
+    const Moving before = moving;
+    const hm_solver solver{nullptr, &relax_in_double};
+    hm_step_result result;
+    ASSERT_EQ(hm_step(&pair.firmware.mesh, &wild, &solver, &moving.state, &result), HM_ERROR_LOST);
+    EXPECT_EQ(moving.position, before.position);
+    EXPECT_EQ(moving.velocity, before.velocity);
+    EXPECT_EQ(moving.previous_position, before.previous_position);
     EXPECT_EQ(moving.acceleration, before.acceleration);
     EXPECT_EQ(moving.state.step, 0u);
   }

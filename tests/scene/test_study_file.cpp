@@ -64,7 +64,8 @@ TEST(StudyFile, MistakesAreToldByTheirLine) {
 }
 
 TEST(StudyFile, EveryShippedStudyIsRead) {
-  EXPECT_THAT(shipped_studies(), ::testing::IsSupersetOf({"banner-methods", "first-map", "first-widths", "probe-map"}));
+  EXPECT_THAT(shipped_studies(),
+              ::testing::IsSupersetOf({"banner-methods", "first-map", "first-widths", "probe-map"}));
   for (const std::string& name : shipped_studies()) EXPECT_EQ(read_study(name).name, name);
 }
 
