@@ -64,7 +64,7 @@ Snapshots TruthStore::positions(const scene::Inputs& inputs, const study::BuiltM
   const fs::path file = folder_ / fmt::format("truth-{:016x}.npy", hash_of(around, mesh, times));
   if (fs::exists(file)) return kept(file);
   try {
-    const Snapshots all = solve(around, mesh, times);
+    Snapshots all = solve(around, mesh, times);
     keep(file, all, mesh.nodes());
     return all;
   } catch (const rivals::Diverged&) {

@@ -42,7 +42,7 @@ class Physics {
   const State& initial_state() const { return initial_; }
 
   /// Overwrites `force` with what the springs do at `position`.
-  void spring_forces(In position, Out force) const { pass_.forces(position, force); }
+  void spring_forces(In position, const Out& force) const { pass_.forces(position, force); }
   /// Springs and surroundings without drag, which each method treats in its own way.
   void acceleration(In position, Out result) const;
   double spring_energy(In position) const { return pass_.energy(position); }
