@@ -20,7 +20,8 @@ bool in_row_order(const scene::Spring& a, const scene::Spring& b) {
 }
 
 bool continues(const scene::Spring& before, const scene::Spring& spring) {
-  return distance(spring) == distance(before) && spring.node[0] - before.node[0] <= widest_gap + 1;
+  return distance(spring) == distance(before) && spring.node[0] > before.node[0] &&
+         spring.node[0] - before.node[0] <= widest_gap + 1;
 }
 
 } // namespace

@@ -9,10 +9,10 @@
 namespace hopmesh::rivals {
 
 struct Options {
-  double tolerance = 1e-9;  ///< Newton: done when no coordinate moves by more, m
-  int max_iterations = 100; ///< Newton: a step that needs more has failed
-  int substeps = 1;         ///< xpbd: equal parts of a time step
-  int iterations = 0;       ///< xpbd, projective_dynamics: sweeps a (sub)step; 0: the method's own, 1 and 20
+  double tolerance = 1e-9;   ///< Newton: done when no coordinate moves by more, m
+  int max_iterations = 1000; ///< Newton: a step that needs more has failed; one that buckles takes hundreds
+  int substeps = 1;          ///< xpbd: equal parts of a time step
+  int iterations = 0;        ///< xpbd, projective_dynamics: sweeps a (sub)step; 0: the method's own, 1 and 20
 };
 
 /// Work since the start. An iteration is one of Newton's, a sweep of XPBD, a local and a global solve of

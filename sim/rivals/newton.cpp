@@ -47,8 +47,7 @@ void Newton::search(const Implicit& problem, Vector& x) {
   trial_ = x + direction_;
   if (direction_.lpNorm<Eigen::Infinity>() > too_small_to_judge) {
     const double start = value(problem, x);
-    double slope = 0; // the gradient of what cannot move is no part of it; its direction is 0
-    slope = gradient_.dot(direction_);
+    const double slope = gradient_.dot(direction_); // what cannot move has no direction
     for (int k = 0; k < most_halvings && !(value(problem, trial_) <= start + sufficient * share * slope);
          ++k) {
       share /= 2;

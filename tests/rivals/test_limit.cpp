@@ -56,6 +56,18 @@ INSTANTIATE_TEST_SUITE_P(Of, RivalsStability,
                                            std::tuple("rk4", 2 * std::sqrt(2.0), 0.03)),
                          [](const auto& made) { return std::get<0>(made.param); });
 
+// Far beyond the explicit limit, where a compressed sheet buckles within a step.
+TEST(RivalsLimit, ImplicitStepsHaveNone) {
+  for (const std::string name : {"backward_euler", "bdf2", "projective_dynamics"})
+    for (const double alpha : {50.0, 5000.0}) {
+      const scene::Mesh mesh = sheet(10, alpha);
+      const Physics physics(mesh, banner_air);
+      const auto method = make_method(name, physics, 0.05);
+      for (int k = 0; k < 20; ++k) ASSERT_NO_THROW(method->advance()) << name << " alpha " << alpha;
+      EXPECT_LT(method->positions().lpNorm<Eigen::Infinity>(), 3) << name << " alpha " << alpha;
+    }
+}
+
 TEST(RivalsLimit, WhoDivergesSaysSoInASentence) {
   const scene::Mesh mesh = sheet(8, 50);
   const Physics physics(mesh, banner_air);
