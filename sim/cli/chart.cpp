@@ -106,6 +106,16 @@ void add_line(const CsvTable& table, const std::string& x, const char* method, c
   if (least > 0) chart.lines.push_back({least, name});
 }
 
+/// How far the truth itself is known.
+void add_floor(const CsvTable& table, const std::string& x, record::Chart& chart) {
+  const std::string error = "truth_error", floor = "truth_floor";
+  if (x.rfind(error, 0) != 0) return;
+  double most = 0;
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    most = std::max(most, table.number(r, floor + x.substr(error.size())).value_or(0));
+  if (most > 0) chart.lines.push_back({most, "truth floor"});
+}
+
 std::string axis_label(const std::string& column) {
   if (column.find("seconds") != std::string::npos) return column + ", s";
   return column.find('@') != std::string::npos || column == "position_error" ? column + " (rms), m" : column;
@@ -132,7 +142,7 @@ int chart(ChartOptions o) {
   c.title = fs::absolute(folder).lexically_normal().filename().string() + ": speed against accuracy";
   c.x_label = axis_label(o.x), c.y_label = axis_label(o.y);
   c.series = series_of(table, o);
-  add_line(table, o.x, "truth", "truth floor", c);
+  add_floor(table, o.x, c);
   add_line(table, o.x, "backward_euler", "step solved exactly", c);
   const std::string svg = record::svg_of(c);
   record::write_file(folder / "chart.svg", svg);

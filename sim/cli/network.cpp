@@ -60,6 +60,8 @@ int network(NetworkOptions& o) {
   fmt::print("{} step {}: {} weights, {} sweeps, {}; written to {}\n", p.inputs.scene.name, o.step,
              motion.last_step().network.W.nonZeros(), row.sweeps,
              row.converged ? "converged" : "stopped by max_sweeps", o.out);
+  if (p.inputs.scene.motion.formulation == scene::Formulation::incremental)
+    fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
   return done;
 }
 

@@ -30,7 +30,6 @@ void RivalMotion::keep() {
 }
 
 study::StepRow RivalMotion::advance() {
-  const std::uint64_t before = method_->counters().iterations;
   try {
     method_->advance();
   } catch (const rivals::Diverged& lost) {
@@ -40,7 +39,6 @@ study::StepRow RivalMotion::advance() {
   study::StepRow row;
   row.step = step_++;
   row.time = static_cast<double>(step_) * time_step_;
-  row.sweeps = method_->counters().iterations - before;
   row.converged = true; // an iteration that does not converge has thrown
   study::measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
   row.hash = study::state_hash(state());

@@ -53,8 +53,7 @@ int one_point(const scene::Study& study, const study::StudyFolder& folder, const
   const study::Point point = study::point_of(study, number);
   study::PointRow row;
   try {
-    row =
-        study::run_point(point, study::inputs_of(study, point), {study.times, true}, methods, stop_requested);
+    row = study::run_point(point, study::inputs_of(study, point), study.times, methods, stop_requested);
   } catch (const std::exception& error) {
     row.status = "failed";
     row.stability = study::Stability::blow_up;
@@ -124,15 +123,14 @@ void tell_rest(const StudyOptions& o, const scene::Study& study, const study::St
 }
 
 // A level keeps references to what it was made from: all of it lives as long as the motion.
-std::shared_ptr<study::Motion> motion_of(const std::string& method, const scene::Inputs& inputs,
-                                         const study::BuiltMesh&, bool check) {
+std::shared_ptr<study::Motion> motion_of(const std::string& method, const scene::Inputs& inputs) {
   struct Kept {
     Prepared prepared;
     Level level;
   };
   auto kept = std::make_shared<Kept>();
   kept->prepared = {inputs, std::make_unique<study::BuiltMesh>(inputs.scene)};
-  kept->level = make_level(method, kept->prepared, check, {{}, {}, true});
+  kept->level = make_level(method, kept->prepared, true, {{}, {}, true});
   study::Motion* motion = kept->level.motion.get();
   return {kept, motion};
 }
@@ -155,7 +153,7 @@ void add_study(CLI::App& verb, StudyOptions& o) {
 study::Methods all_methods(const fs::path& folder) {
   const auto truth = [store = TruthStore(folder)](const scene::Inputs& inputs, const study::BuiltMesh& mesh,
                                                   const std::vector<double>& times) {
-    return store.positions(inputs, mesh, times);
+    return store.at(inputs, mesh, times);
   };
   return {method_names(), motion_of, truth};
 }

@@ -1,5 +1,7 @@
 #include "sim/cli/truth_store.h"
 
+#include "sim/record/csv.h"
+#include "sim/record/csv_table.h"
 #include "sim/record/npy.h"
 #include "sim/rivals/method.h"
 #include "sim/rivals/truth.h"
@@ -14,7 +16,6 @@ namespace hopmesh::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Snapshots = std::vector<std::vector<double>>;
 
 constexpr double tolerance = 1e-11; // relative and absolute; far below what any rival reaches
 
@@ -26,47 +27,50 @@ std::uint64_t hash_of(const rivals::Surroundings& around, const study::BuiltMesh
   return study::hash_on(study::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
 }
 
-Snapshots solve(const rivals::Surroundings& around, const study::BuiltMesh& mesh,
-                const std::vector<double>& times) {
-  const rivals::Physics physics(mesh.mesh(), around);
-  rivals::Walk walk(physics, rivals::Multistep::adams, tolerance);
-  Snapshots all;
-  for (double time : times) {
-    walk.to(time);
-    const rivals::Vector at = walk.positions();
-    all.emplace_back(at.data(), at.data() + at.size());
-  }
-  return all;
+study::Truth solve(const rivals::Surroundings& around, const study::BuiltMesh& mesh,
+                   const std::vector<double>& times) {
+  const rivals::Truth found = rivals::solve(rivals::Physics(mesh.mesh(), around), times, tolerance);
+  study::Truth truth;
+  truth.floor = found.floor;
+  for (const rivals::Vector& at : found.positions)
+    truth.positions.emplace_back(at.data(), at.data() + at.size());
+  return truth;
 }
 
-// Two points may work out the same one at the same time: each writes a file of its own, the last name wins.
-void keep(const fs::path& file, const Snapshots& all, std::size_t nodes) {
-  fs::path own = file;
-  own += fmt::format(".{}", getpid());
-  record::NpyWriter<double> writer(own, {nodes, 3});
-  for (const auto& positions : all) writer.append(positions);
-  writer.commit();
-  fs::rename(own, file);
+// Two points may work out the same one at the same time: each writes files of its own, the last name wins.
+// Positions come last: where they are, the floor is.
+void keep(const fs::path& stem, const study::Truth& truth, std::size_t nodes) {
+  const std::string own = stem.string() + fmt::format(".{}", getpid());
+  record::CsvWriter floor(own + ".csv", {"floor"});
+  for (double f : truth.floor) floor.cell(f).end_row();
+  floor.commit();
+  record::NpyWriter<double> positions(own + ".npy", {nodes, 3});
+  for (const auto& at : truth.positions) positions.append(at);
+  positions.commit();
+  for (const char* ending : {".csv", ".npy"}) fs::rename(own + ending, stem.string() + ending);
 }
 
-Snapshots kept(const fs::path& file) {
-  record::NpyReader<double> reader(file);
-  Snapshots all;
-  for (std::size_t k = 0; k < reader.rows(); ++k) all.push_back(reader.row(k));
-  return all;
+study::Truth kept(const fs::path& stem) {
+  study::Truth truth;
+  const record::CsvTable floor = record::read_csv(stem.string() + ".csv");
+  for (std::size_t k = 0; k < floor.rows.size(); ++k)
+    truth.floor.push_back(floor.number(k, "floor").value_or(0));
+  record::NpyReader<double> positions(stem.string() + ".npy");
+  for (std::size_t k = 0; k < positions.rows(); ++k) truth.positions.push_back(positions.row(k));
+  return truth;
 }
 
 } // namespace
 
-Snapshots TruthStore::positions(const scene::Inputs& inputs, const study::BuiltMesh& mesh,
-                                const std::vector<double>& times) const {
+study::Truth TruthStore::at(const scene::Inputs& inputs, const study::BuiltMesh& mesh,
+                            const std::vector<double>& times) const {
   const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);
-  const fs::path file = folder_ / fmt::format("truth-{:016x}.npy", hash_of(around, mesh, times));
-  if (fs::exists(file)) return kept(file);
+  const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash_of(around, mesh, times));
+  if (fs::exists(stem.string() + ".npy")) return kept(stem);
   try {
-    Snapshots all = solve(around, mesh, times);
-    keep(file, all, mesh.nodes());
-    return all;
+    study::Truth truth = solve(around, mesh, times);
+    keep(stem, truth, mesh.nodes());
+    return truth;
   } catch (const rivals::Diverged&) {
     return {};
   }

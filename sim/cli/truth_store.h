@@ -2,8 +2,7 @@
 // one: it is worked out once and lies in the study's folder.
 #pragma once
 
-#include "sim/scene/scene_file.h"
-#include "sim/study/built_mesh.h"
+#include "sim/study/point_runner.h"
 
 #include <filesystem>
 
@@ -13,9 +12,9 @@ class TruthStore {
  public:
   explicit TruthStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Positions [nodes * 3] at each of the times, ascending, s; empty where SUNDIALS gives up.
-  std::vector<std::vector<double>> positions(const scene::Inputs& inputs, const study::BuiltMesh& mesh,
-                                             const std::vector<double>& times) const;
+  /// At each of the times, ascending, s; empty where SUNDIALS gives up.
+  study::Truth at(const scene::Inputs& inputs, const study::BuiltMesh& mesh,
+                  const std::vector<double>& times) const;
 
  private:
   std::filesystem::path folder_;

@@ -1,6 +1,7 @@
 #include "sim/engine/fast_core.h"
 
 #include "sim/engine/aligned.h"
+#include "sim/engine/fast_layout.h"
 #include "sim/engine/fast_plan.h"
 
 #include <atomic>
@@ -16,12 +17,10 @@ class FastCore : public Core {
  public:
   FastCore(const Plan& plan, const Layout& layout, const KernelSet& kernels)
       : plan_(plan), layout_(layout), kernels_(kernels),
-        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), norm_bits_(norm_bits(plan)) {
-    align_neighbours();
-    lay_out_weights();
-    find_sources();
+        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), norm_bits_(norm_bits(plan)),
+        at_(layout, per_cell_) {
     const std::size_t neurons = layout.slots() * per_cell_, slots = layout.slots() + 2 * L;
-    weight_.assign(first_weight_.back(), 0);
+    weight_.assign(at_.first_weight.back(), 0);
     bias_.assign(neurons, 0);
     state_ = bias_;
     multiplier_.assign(neurons, 0);
@@ -35,10 +34,10 @@ class FastCore : public Core {
                    std::size_t count) override {
     std::int16_t* row = weight_row(slot, p);
     for (std::size_t k = 0; k < count; ++k)
-      row[tap_place(slot, first_tap + k)] = static_cast<std::int16_t>(codes[k]);
+      row[at_.in_row(slot, first_tap + k)] = static_cast<std::int16_t>(codes[k]);
   }
   std::int32_t weight(std::size_t slot, std::size_t p, std::size_t tap) const override {
-    return const_cast<FastCore*>(this)->weight_row(slot, p)[tap_place(slot, tap)];
+    return const_cast<FastCore*>(this)->weight_row(slot, p)[at_.in_row(slot, tap)];
   }
   void put_bias(std::size_t slot, std::size_t p, std::int32_t code) override { bias_[place(slot, p)] = code; }
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
@@ -72,42 +71,18 @@ class FastCore : public Core {
     point_at_links();
   }
   std::size_t bytes_per_sweep() const override {
-    return 4 * weight_.size() + sizeof(Source) * source_.size() + 4 * far_slot_.size() +
+    return 4 * weight_.size() + sizeof(Source) * at_.source.size() + 4 * at_.far_slot.size() +
            layout_.slots() * (per_cell_ * (4 + 8 + 8) + 2 * 4 * (per_cell_ - 1));
   }
   const char* name() const override { return kernels_.name; }
 
  private:
   bool synchronous() const { return plan_.schedule == spec::Schedule::synchronous; }
-  std::size_t place(std::size_t slot, std::size_t p) const {
-    return (slot / L * per_cell_ + p) * L + slot % L;
-  }
-  std::size_t pairs(std::size_t n) const { return per_cell_ == 3 ? 2 + n + n / 2 : 1 + n; }
-  std::uint32_t degree(std::size_t slot) const { return layout_.degree[slot]; }
-  std::uint32_t neighbour(std::size_t slot, std::size_t k) const {
-    const std::size_t b = slot / L;
-    return layout_.source[layout_.first_source[b] + k * L + slot % L];
-  }
-  /// How far off the k-th neighbour is, in cell numbers.
-  std::int64_t way(std::size_t slot, std::size_t k) const {
-    return std::int64_t{layout_.cell_of_slot[neighbour(slot, k)]} - layout_.cell_of_slot[slot];
-  }
+  std::size_t place(std::size_t slot, std::size_t p) const { return at_.place(slot, p); }
   std::int16_t* weight_row(std::size_t slot, std::size_t p) {
-    const std::size_t block = slot / L;
-    std::uint32_t* row = &weight_[first_weight_[block] + p * L + slot % L];
-    return reinterpret_cast<std::int16_t*>(row);
-  }
-  std::size_t tap_place(std::size_t slot, std::size_t tap) const {
-    const std::size_t source = tap / per_cell_, q = tap % per_cell_;
-    const std::size_t at = source == 0 ? 0 : 1 + column_[first_column_[slot] + source - 1];
-    return tap_place_[neighbours_[slot / L]][at * per_cell_ + q];
+    return reinterpret_cast<std::int16_t*>(&weight_[at_.row(slot, p)]);
   }
 
-  void align_neighbours();
-  void lay_out_weights();
-  void find_sources();
-  void add_source(std::size_t block, std::size_t column);
-  bool reads_the_two_before(std::size_t block) const;
   void set_arguments();
   void point_at_links();
   void invert(std::size_t at, std::uint64_t norm);
@@ -117,15 +92,8 @@ class FastCore : public Core {
   const KernelSet& kernels_;
   const std::size_t per_cell_;
   const int norm_bits_;
+  const FastLayout at_;
   std::atomic<std::uint32_t> largest_row_{0};
-  std::vector<std::uint32_t> neighbours_;
-  std::vector<std::uint32_t> first_column_; ///< of a slot, in `column_`
-  std::vector<std::uint16_t> column_;       ///< in which a cell's k-th neighbour stands in its block
-  std::vector<std::vector<std::uint32_t>> tap_place_; ///< by neighbours of a block: place of a tap in its row
-  std::vector<std::size_t> first_weight_;
-  std::vector<std::uint32_t> first_source_, far_slot_;
-  std::vector<Source> source_;
-  std::vector<std::uint8_t> waits_;
   AlignedVector<std::uint32_t> weight_;
   AlignedVector<std::int32_t> bias_, state_, kept_state_;
   AlignedVector<std::int64_t> multiplier_;
@@ -134,112 +102,14 @@ class FastCore : public Core {
   FireKernel fire_ = nullptr;
 };
 
-// Where each tap of a row stands, counted in 16-bit codes from the lane's first: kernel.h has the order.
-void FastCore::lay_out_weights() {
-  first_weight_.assign(1, 0);
-  for (std::uint32_t& even : neighbours_) {
-    if (per_cell_ == 3) even += even % 2;
-    first_weight_.push_back(first_weight_.back() + per_cell_ * pairs(even) * L);
-    if (tap_place_.size() <= even) tap_place_.resize(even + 1);
-    auto& place = tap_place_[even];
-    if (!place.empty()) continue;
-    const auto code = [&](std::size_t pair, std::size_t half) {
-      return static_cast<std::uint32_t>(2 * L * per_cell_ * pair + half);
-    };
-    const bool with_z = per_cell_ == 3;
-    for (std::size_t q = 0; q < per_cell_; ++q)
-      place.push_back(q < 2 ? code(pairs(even) - 1, q) : code(pairs(even) - 2, 0));
-    for (std::size_t k = 0; k < even; ++k)
-      for (std::size_t q = 0; q < per_cell_; ++q)
-        place.push_back(q == 2 ? code(k / 2 * 3 + 2, k % 2) : code(with_z ? k / 2 * 3 + k % 2 : k, q));
-  }
-}
-
-void FastCore::find_sources() {
-  first_source_.assign(1, 0);
-  for (std::size_t b = 0; b < neighbours_.size(); ++b) {
-    for (std::size_t k = 0; k < neighbours_[b]; ++k) add_source(b, k);
-    waits_.push_back(reads_the_two_before(b));
-    first_source_.push_back(static_cast<std::uint32_t>(source_.size()));
-  }
-}
-
-// Sixteen lanes find a neighbour best when it is the same way off for all of them: neighbours of one distance
-// in cell numbers get a column of their own, as long as that takes few more columns than the cells have
-// neighbours. (Sums are exact, so their order is free.)
-void FastCore::align_neighbours() {
-  first_column_.assign(1, 0);
-  for (std::size_t b = 0; b < layout_.blocks(); ++b) {
-    std::vector<std::int64_t> ways;
-    for (std::size_t l = 0; l < L; ++l)
-      for (std::size_t k = 0; k < degree(b * L + l); ++k) ways.push_back(way(b * L + l, k));
-    std::sort(ways.begin(), ways.end());
-    ways.erase(std::unique(ways.begin(), ways.end()), ways.end());
-    const std::size_t most = layout_.neighbours[b], wanted = ways.size();
-    const bool aligned = wanted <= most + most / 4;
-    neighbours_.push_back(static_cast<std::uint32_t>(aligned ? wanted : most));
-    for (std::size_t l = 0; l < L; ++l) {
-      for (std::size_t k = 0; k < degree(b * L + l); ++k) {
-        const auto at = std::lower_bound(ways.begin(), ways.end(), way(b * L + l, k)) - ways.begin();
-        column_.push_back(static_cast<std::uint16_t>(aligned ? at : static_cast<std::ptrdiff_t>(k)));
-      }
-      first_column_.push_back(static_cast<std::uint32_t>(column_.size()));
-    }
-  }
-}
-
-// A lane without this neighbour has weight 0 and may read anything that is there, even a word that another
-// thread is writing.
-void FastCore::add_source(std::size_t block, std::size_t column) {
-  std::uint32_t slots[L];
-  bool real[L] = {};
-  std::uint32_t low = UINT32_MAX, high = 0;
-  std::size_t first_real = L;
-  bool together = true;
-  for (std::size_t l = 0; l < L; ++l) {
-    slots[l] = static_cast<std::uint32_t>(block * L + l);
-    for (std::size_t k = 0; k < degree(block * L + l); ++k)
-      if (column_[first_column_[block * L + l] + k] == column)
-        slots[l] = neighbour(block * L + l, k), real[l] = true;
-    if (!real[l]) continue;
-    if (first_real == L) first_real = l;
-    low = std::min(low, slots[l]), high = std::max(high, slots[l]);
-    together = together && slots[l] >= l && slots[l] - l == slots[first_real] - first_real;
-  }
-  Source s{static_cast<std::uint32_t>(block * L), Source::together, {}};
-  if (first_real < L && together) {
-    s.base = slots[first_real] - static_cast<std::uint32_t>(first_real);
-  } else if (first_real < L && high - low < 2 * L) {
-    s.kind = Source::near;
-    const std::uint32_t line = low / L * L; // a load that straddles cache lines costs two
-    s.base = high - line < 2 * L ? line : low;
-    for (std::size_t l = 0; l < L; ++l)
-      s.lane[l] = static_cast<std::uint8_t>(real[l] ? slots[l] - s.base : 0);
-  } else if (first_real < L) {
-    s.kind = Source::far;
-    s.base = static_cast<std::uint32_t>(far_slot_.size());
-    far_slot_.insert(far_slot_.end(), slots, slots + L);
-  }
-  source_.push_back(s);
-}
-
-bool FastCore::reads_the_two_before(std::size_t block) const {
-  for (std::size_t slot = block * L; slot < (block + 1) * L; ++slot)
-    for (std::size_t k = 0; k < degree(slot); ++k) {
-      const std::size_t other = neighbour(slot, k) / L;
-      if (other < block && other + 2 >= block) return true;
-    }
-  return false;
-}
-
 void FastCore::set_arguments() {
   const spec::Formats& f = plan_.formats;
-  args_.neighbours = neighbours_.data();
-  args_.first_weight = first_weight_.data();
-  args_.first_source = first_source_.data();
-  args_.source = source_.data();
-  args_.waits = waits_.data();
-  args_.far_slot = far_slot_.data();
+  args_.neighbours = at_.neighbours.data();
+  args_.first_weight = at_.first_weight.data();
+  args_.first_source = at_.first_source.data();
+  args_.source = at_.source.data();
+  args_.waits = at_.waits.data();
+  args_.far_slot = at_.far_slot.data();
   args_.weight = weight_.data();
   args_.bias = bias_.data();
   args_.multiplier = multiplier_.data();

@@ -151,9 +151,9 @@ class Drawing {
       const double at = x_.at(line.x);
       put("<path d=\"M{:.1f} {}V{}\" stroke=\"#b03a2e\" stroke-width=\"1.5\" stroke-dasharray=\"8 4\"/>\n",
           at, top, bottom);
-      put("<text transform=\"translate({:.1f} {}) rotate(-90)\" text-anchor=\"end\" font-size=\"11\" "
+      put("<text transform=\"translate({:.1f} {}) rotate(-90)\" font-size=\"11\" "
           "fill=\"#b03a2e\">{}</text>\n",
-          at - 5, top + 8, xml(line.name));
+          at - 5, bottom - 8, xml(line.name)); // at the foot, where there is least work
     }
   }
 

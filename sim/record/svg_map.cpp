@@ -17,7 +17,8 @@ constexpr const char* strokes[] = {"none", "7 4", "2 4"}; // dashes of the first
 class Drawing {
  public:
   explicit Drawing(const CellMap& map) : map_(map) {
-    columns_ = std::min<std::size_t>(3, std::max<std::size_t>(1, map.panels.size()));
+    const auto panels = static_cast<double>(std::max<std::size_t>(1, map.panels.size()));
+    columns_ = static_cast<std::size_t>(panels <= 3 ? panels : std::ceil(std::sqrt(panels)));
     cell_x_ = side / static_cast<double>(std::max<std::size_t>(1, map.xs.size()));
     cell_y_ = side / static_cast<double>(std::max<std::size_t>(1, map.ys.size()));
   }
@@ -105,13 +106,32 @@ class Drawing {
     lines_legend(y + 24);
   }
 
+  bool is_inside(const MapLine& line) const {
+    const auto inside = [](const std::vector<double>& values, double value) {
+      const double place = place_among(values, value);
+      return place >= 0 && place <= static_cast<double>(values.size());
+    };
+    return std::any_of(line.points.begin(), line.points.end(), [&](const auto& point) {
+      return inside(map_.xs, point.first) && inside(map_.ys, point.second);
+    });
+  }
+
+  /// Somewhere in the map; a legend must not speak of a line that nobody sees.
+  bool is_seen(const std::string& name) const {
+    for (const MapPanel& panel : map_.panels)
+      for (const MapLine& line : panel.lines)
+        if (line.name == name && is_inside(line)) return true;
+    return false;
+  }
+
   void lines_legend(double y) {
     double x = left;
     std::set<std::string> told;
     for (const MapPanel& panel : map_.panels)
       for (std::size_t k = 0; k < panel.lines.size(); ++k) {
-        const std::string& name = panel.lines[k].name;
-        if (panel.lines[k].points.empty() || !told.insert(name).second) continue;
+        if (panel.lines[k].points.empty() || !told.insert(panel.lines[k].name).second) continue;
+        const bool seen = is_seen(panel.lines[k].name);
+        const std::string name = panel.lines[k].name + (seen ? "" : " (beyond the map)");
         put("<path d=\"M{} {}h26\" stroke=\"#111\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"/><text "
             "x=\"{}\" "
             "y=\"{}\">{}</text>\n",

@@ -2,6 +2,7 @@
 #include "sim/rivals/physics.h"
 
 #include "sim/scene/input_error.h"
+#include "sim/scene/scene_reader.h"
 
 #include <cmath>
 
@@ -25,11 +26,8 @@ Vector by_component(const Vector& by_node) {
 
 Surroundings surroundings_of(const scene::Scene& scene) {
   const double friction = scene.motion.friction;
-  if (!(friction > 0)) {
-    const auto line = scene.lines.find("motion.friction");
-    throw scene::input_error(scene.source, line == scene.lines.end() ? 0 : line->second, "motion.friction",
-                             std::to_string(friction), "above 0 for a method with a drag");
-  }
+  if (!(friction > 0))
+    throw scene::scene_error(scene, "motion.friction", "0", "above 0 for a method with a drag");
   Surroundings result;
   const scene::Vector3 wind = scene.force.wind.value_or(scene::Vector3{0, 0, 0});
   for (std::size_t p = 0; p < 3; ++p) result.force[p] = scene.force.gravity[p] + wind[p];

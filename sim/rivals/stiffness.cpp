@@ -1,4 +1,4 @@
-// Assembling the stiffness matrix, and its largest eigenvalue.
+// Assembling the stiffness matrix.
 #include "sim/rivals/stiffness.h"
 
 #include <algorithm>
@@ -96,26 +96,6 @@ void Stiffness::gather(const Vector& all, Vector& free) const {
 
 void Stiffness::scatter(const Vector& free, Vector& all) const {
   for (Eigen::Index at = 0; at < freedoms(); ++at) all[where_[at]] = free[at];
-}
-
-double largest_omega(const Physics& physics, const Vector& position) {
-  Stiffness stiffness(physics);
-  stiffness.assemble(position, 0, false);
-  // A start that no symmetry of a mesh is blind to.
-  Vector v(stiffness.freedoms());
-  for (Eigen::Index at = 0; at < v.size(); ++at) v[at] = std::sin(1.0 + static_cast<double>(at * at % 9973));
-  double eigenvalue = 0;
-  for (int round = 0; round < 500; ++round) { // until 20 products change nothing in the sixth digit
-    const double before = eigenvalue;
-    for (int product = 0; product < 20; ++product) {
-      v.normalize();
-      const Vector image = stiffness.lower().selfadjointView<Eigen::Lower>() * v;
-      eigenvalue = v.dot(image);
-      v = image;
-    }
-    if (std::abs(eigenvalue - before) <= 1e-7 * std::abs(eigenvalue)) break;
-  }
-  return std::sqrt(std::abs(eigenvalue) / physics.mass());
 }
 
 } // namespace hopmesh::rivals

@@ -1,5 +1,5 @@
 // The second derivative of the spring energy as a sparse matrix over what is free to move, its pattern found
-// once and its values written in place; and the fastest vibration it predicts.
+// once and its values written in place.
 #pragma once
 
 #include "sim/rivals/physics.h"
@@ -38,9 +38,5 @@ class Stiffness {
   std::vector<Places> places_; ///< [springs]
   std::vector<int> diagonal_;  ///< [freedoms]
 };
-
-/// The largest angular frequency at this state, 1/s: root of the largest eigenvalue of K / m, by power
-/// iteration. Symplectic Euler and Verlet hold to dt < 2 / omega, RK4 to 2.83 / omega.
-double largest_omega(const Physics& physics, const Vector& position);
 
 } // namespace hopmesh::rivals

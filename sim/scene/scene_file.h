@@ -19,10 +19,6 @@ struct Inputs {
 Inputs read_inputs(const std::string& scene, const std::string& array,
                    const std::vector<std::string>& overrides);
 
-/// Names of the shipped scenes, ascending, and the folder they are in.
-std::vector<std::string> shipped_scenes();
-std::string shipped_folder();
-
 /// The whole description with every default filled in, as TOML that read_inputs takes back.
 std::string scene_text(const Scene& scene);
 std::string array_text(const spec::ArraySpec& array);

@@ -2,7 +2,7 @@
 #include "sim/scene/study_file.h"
 
 #include "sim/scene/key_reader.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/shipped.h"
 #include "sim/scene/whole_file.h"
 
 #include <algorithm>
@@ -182,10 +182,6 @@ class StudyReader {
   Study study_;
 };
 
-fs::path studies_folder() {
-  return fs::path(shipped_folder()).parent_path() / "studies";
-}
-
 } // namespace
 
 std::size_t Study::combinations() const {
@@ -202,26 +198,8 @@ Study study_of(const std::string& text, const std::string& path) {
 }
 
 Study read_study(const std::string& study) {
-  const auto shipped = shipped_studies();
-  std::error_code ignored;
-  std::string path = study;
-  if (std::binary_search(shipped.begin(), shipped.end(), study))
-    path = (studies_folder() / (study + ".toml")).string();
-  else if (study.find('/') == std::string::npos && fs::path(study).extension() != ".toml" &&
-           !fs::is_regular_file(study, ignored))
-    throw input_error("", 0, "study", in_quotes(study),
-                      fmt::format("a study file, or one of {}", fmt::join(shipped, ", ")),
-                      nearest_name(study, shipped));
+  const std::string path = path_of(study, Shipped::study);
   return study_of(read_whole_file(path, "a study file", most_bytes), path);
-}
-
-std::vector<std::string> shipped_studies() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(studies_folder(), ignored))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 } // namespace hopmesh::scene

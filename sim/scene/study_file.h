@@ -45,6 +45,4 @@ Study read_study(const std::string& study);
 /// The study in `text`, which stands in the file `path`.
 Study study_of(const std::string& text, const std::string& path);
 
-std::vector<std::string> shipped_studies();
-
 } // namespace hopmesh::scene

@@ -80,6 +80,20 @@ FigureTable memory(const BuiltMesh& mesh, const spec::ArraySpec& array) {
            {"accumulators", kib(bits.accumulators)}}};
 }
 
+FigureTable motion(const scene::Scene& scene) {
+  const bool probe = scene.motion.formulation == scene::Formulation::probe;
+  return {"Motion",
+          {{"formulation", probe ? "probe: outputs are directions"
+                                 : "incremental, " + scene.incremental.rule +
+                                       ": outputs are scaled changes of acceleration"},
+           {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
+                                 scene.motion.time_step)},
+           {"expansions a step", fmt::format("{}", scene.relax.expansions)},
+           {"relaxed until",
+            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
+                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+}
+
 FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
   const std::size_t pinned = mesh.nodes() - mesh.cells(), n = mesh.components();
   std::vector<record::Figure> rows{
@@ -99,6 +113,11 @@ FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
     if (scene.mesh.grid && kinds[k] == 0) rows.push_back({names[k], "weight 0: not built"});
   if (n == 2) rows.push_back({"third neuron of a cell", "planar: y never moves"});
   if (!scene.force.wind) rows.push_back({"wind", "none given"});
+  if (scene.force.drag == 0) rows.push_back({"drag of the air", "none given"});
+  if (scene.motion.formulation == scene::Formulation::incremental)
+    rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
+  else
+    rows.push_back({"inertia", "mass moves no node in the probe"});
   return {"Left out", rows};
 }
 
@@ -119,8 +138,8 @@ MemoryBits memory_bits(const BuiltMesh& mesh, const spec::ArraySpec& array) {
 std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
                                     const spec::ArraySpec& array) {
   const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);
-  return {shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases), memory(mesh, array),
-          left_out(scene, mesh)};
+  return {motion(scene),       shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases),
+          memory(mesh, array), left_out(scene, mesh)};
 }
 
 std::string text_of(const std::vector<FigureTable>& tables) {

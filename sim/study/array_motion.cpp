@@ -53,8 +53,8 @@ hm_motion motion_of(const scene::Scene& scene) {
 
 ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                          ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)), memory_(mesh),
-      buffer_(4096) {
+    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
+      memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
   if (check) check_.emplace(scene, mesh, array.schedule);
 }
 
@@ -68,14 +68,14 @@ void ArrayMotion::open() {
 StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
-  rest_ = memory_.output;
+  rest_ = memory_.now.output;
   if (check_) check_->begin(state());
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
   if (error == HM_ERROR_STOPPED) {
-    std::copy(rest_.begin(), rest_.end(), memory_.output.begin());
+    std::copy(rest_.begin(), rest_.end(), memory_.now.output.begin());
     throw Stopped();
   }
   if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
@@ -92,26 +92,17 @@ StepRow ArrayMotion::advance() {
   row.converged = result.converged;
   row.clipped = driver_.clipped;
   row.bus_cycles = bus_cycles() - bus_before;
-  row.saturated = static_cast<std::uint64_t>(std::count_if(memory_.output.begin(), memory_.output.end(),
-                                                           [](double V) { return std::fabs(V) >= 1; }));
-  measure(mesh_.mesh(), memory_.position.data(), memory_.velocity.data(), row);
+  row.saturated = static_cast<std::uint64_t>(std::count_if(
+      memory_.now.output.begin(), memory_.now.output.end(), [](double V) { return std::fabs(V) >= 1; }));
+  measure(mesh_.mesh(), memory_.now.position.data(), memory_.now.velocity.data(), row);
   if (check_) {
     using Clock = std::chrono::steady_clock;
     const auto began = Clock::now();
     row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale);
     judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
   }
-  row.hash = hash();
+  row.hash = state_hash(memory_.now);
   return row;
-}
-
-// As state_hash(state()), without the copy of large meshes.
-std::uint64_t ArrayMotion::hash() const {
-  const std::vector<double> none;
-  const bool two_steps = motion_.rule == HM_BDF2;
-  return state_hash({&memory_.position, &memory_.velocity, &memory_.acceleration, &memory_.output,
-                     two_steps ? &memory_.previous_position : &none,
-                     two_steps ? &memory_.previous_velocity : &none});
 }
 
 std::uint64_t ArrayMotion::bus_cycles() const {
@@ -144,28 +135,20 @@ std::vector<SignalRange> ArrayMotion::ranges() const {
 }
 
 StepState ArrayMotion::state() const {
-  StepState s{
-      memory_.state.step, memory_.position, memory_.velocity, memory_.acceleration, memory_.output, {}, {}};
-  if (motion_.rule == HM_BDF2)
-    s.previous_position = memory_.previous_position, s.previous_velocity = memory_.previous_velocity;
-  return s;
+  StepState state = memory_.now;
+  state.step = memory_.state.step;
+  return state;
 }
 
 // Values are copied into place: the firmware's pointers stay what they are.
 void ArrayMotion::restore(const StepState& state, const std::vector<SignalRange>& seen) {
-  memory_.state.step = state.step;
-  const auto copy = [](const std::vector<double>& from, std::vector<double>& to) {
-    if (from.size() != to.size()) throw std::logic_error("the state of another mesh");
-    std::copy(from.begin(), from.end(), to.begin());
-  };
-  copy(state.position, memory_.position);
-  copy(state.velocity, memory_.velocity);
-  copy(state.acceleration, memory_.acceleration);
-  copy(state.output, memory_.output);
-  if (motion_.rule == HM_BDF2) {
-    copy(state.previous_position, memory_.previous_position);
-    copy(state.previous_velocity, memory_.previous_velocity);
+  const auto from = parts_of(state);
+  const auto to = parts_of(memory_.now);
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    if (from[k].second->size() != to[k].second->size()) throw std::logic_error("the state of another mesh");
+    std::copy(from[k].second->begin(), from[k].second->end(), to[k].second->begin());
   }
+  memory_.state.step = state.step;
   seen_ = seen;
 }
 

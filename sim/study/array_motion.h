@@ -15,8 +15,8 @@ class ArrayMotion : public Motion {
               bool check);
 
   StepRow advance() override;
-  const std::vector<double>& positions() const override { return memory_.position; }
-  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.output)); }
+  const std::vector<double>& positions() const override { return memory_.now.position; }
+  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.now.output)); }
   std::vector<SignalRange> ranges() const override;
   double judging_seconds() const override { return judging_seconds_; }
   StepState state() const override;
@@ -24,13 +24,12 @@ class ArrayMotion : public Motion {
 
   /// What the last step loaded: start as raw codes [cells * components].
   std::vector<std::int32_t> start_raw() const { return raw(memory_.start); }
-  std::vector<std::int32_t> rest_raw() const { return raw(memory_.output); }
+  std::vector<std::int32_t> rest_raw() const { return raw(memory_.now.output); }
   const hm_driver& driver() const { return driver_; }
 
  private:
   void open();
   std::uint64_t bus_cycles() const;
-  std::uint64_t hash() const;
   std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
 
   const BuiltMesh& mesh_;
@@ -40,7 +39,7 @@ class ArrayMotion : public Motion {
   hm_motion motion_{};
   hm_driver driver_{};
   StepMemory memory_;
-  std::vector<double> rest_;      ///< V that the last good step left: the next one works in memory_.output
+  std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
   std::vector<SignalRange> seen_; ///< before restore()
   std::vector<std::uint32_t> buffer_;
   double judging_seconds_ = 0;

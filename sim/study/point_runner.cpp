@@ -1,9 +1,9 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/scene/frequency.h"
 #include "sim/study/array_info.h"
 #include "sim/study/reference_motion.h"
-#include "sim/study/stiffness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,11 +68,11 @@ void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMes
   if (row.cycles > 0) row.memory_bits = memory_bits(mesh, inputs.array).total();
 }
 
-void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const PointAsk& ask,
+void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const std::vector<double>& times,
                        const Snapshots& ours, const Positions& last, const std::atomic<bool>& stop,
                        PointRow& row) {
   ReferenceMotion motion(inputs.scene, mesh, inputs.array.schedule);
-  Snapshots theirs(ask.times, inputs.scene.motion.time_step);
+  Snapshots theirs(times, inputs.scene.motion.time_step);
   const RunResult result = simulate(motion, row.steps, {&theirs}, stop);
   if (result.rows.size() == row.steps) row.position_error = rms_distance(last, motion.positions());
   row.reference_at = distances(ours.at, theirs.at);
@@ -94,11 +94,11 @@ std::uint64_t step_of_time(double time, double time_step) {
   return static_cast<std::uint64_t>(std::llround(time / time_step));
 }
 
-PointRow run_point(const Point& point, const scene::Inputs& inputs, const PointAsk& ask,
+PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop) {
   const BuiltMesh mesh(inputs.scene);
-  const auto motion = methods.make(point.method, inputs, mesh, ask.reference);
-  Snapshots ours(ask.times, inputs.scene.motion.time_step);
+  const auto motion = methods.make(point.method, inputs);
+  Snapshots ours(times, inputs.scene.motion.time_step);
   const auto steps = static_cast<std::uint64_t>(inputs.scene.motion.steps);
   const RunResult result = simulate(*motion, steps, {&ours}, stop);
   PointRow row;
@@ -108,14 +108,17 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const PointA
   row.sentence = result.sentence;
   row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);
-  row.omega = largest_frequency(mesh.mesh());
+  row.omega = scene::largest_frequency(mesh.mesh());
   row.stability = classify(result.rows, facts_of(inputs, mesh, result));
-  row.reference_at.resize(ask.times.size());
-  row.truth_at.resize(ask.times.size());
-  if (ask.reference && row.steps > 0)
-    against_reference(inputs, mesh, ask, ours, motion->positions(), stop, row);
-  if (methods.truth && !ask.times.empty())
-    row.truth_at = distances(ours.at, methods.truth(inputs, mesh, ask.times));
+  row.reference_at.resize(times.size());
+  row.truth_at.resize(times.size());
+  if (row.steps > 0) against_reference(inputs, mesh, times, ours, motion->positions(), stop, row);
+  row.floor_at.resize(times.size());
+  if (!times.empty()) {
+    const Truth truth = methods.truth(inputs, mesh, times);
+    row.truth_at = distances(ours.at, truth.positions);
+    std::copy(truth.floor.begin(), truth.floor.end(), row.floor_at.begin());
+  }
   return row;
 }
 

@@ -18,17 +18,19 @@ struct Point {
   std::string command; ///< that repeats the point
 };
 
+/// The exact motion at a few times, and how far it is known; empty where nobody knows it.
+struct Truth {
+  std::vector<std::vector<double>> positions; ///< [times] each [nodes * 3], m
+  std::vector<double> floor;                  ///< [times] rms that two exact solutions differ by, m
+};
+
 /// The methods a study may name, given by whoever can see them all. A method is a Motion: levels of the
 /// array, the reference, and integrators alike.
 struct Methods {
   std::vector<std::string> names;
-  /// `check`: ask the reference beside every step, where the method can.
-  std::function<std::shared_ptr<Motion>(const std::string& method, const scene::Inputs& inputs,
-                                        const BuiltMesh& mesh, bool check)>
-      make;
-  /// Positions [nodes * 3] of the exact motion at each of the times; empty function: nobody knows it.
-  std::function<std::vector<std::vector<double>>(const scene::Inputs& inputs, const BuiltMesh& mesh,
-                                                 const std::vector<double>& times)>
+  /// Asks the reference beside every step, where the method can.
+  std::function<std::shared_ptr<Motion>(const std::string& method, const scene::Inputs& inputs)> make;
+  std::function<Truth(const scene::Inputs& inputs, const BuiltMesh& mesh, const std::vector<double>& times)>
       truth;
 };
 
@@ -43,17 +45,13 @@ struct PointRow {
   double omega = 0;                          ///< 1/s, of the stiffest wave of the mesh at the start
   Maybe output_error, position_error;        ///< rms; the latter in m, at the end, of the free motions
   std::vector<Maybe> reference_at, truth_at; ///< rms of positions at the stated times, m
+  std::vector<Maybe> floor_at;               ///< below which truth_at means nothing
   std::string sentence;
 };
 
-/// What a study asks of every point beside its settings.
-struct PointAsk {
-  std::vector<double> times;
-  bool reference = true; ///< fly the reference beside it (the check of every step is asked anyway)
-};
-
-/// Runs it here and now. Throws only what is a defect; a point that diverges is a row.
-PointRow run_point(const Point& point, const scene::Inputs& inputs, const PointAsk& ask,
+/// Runs it here and now, and the reference beside it; positions are compared at the `times`, s. Throws only
+/// what is a defect; a point that diverges is a row.
+PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop);
 
 /// The step at whose end a time is taken: the nearest, 1-based.

@@ -43,12 +43,13 @@ void add_series(const RunFacts& facts, const std::vector<StepRow>& rows, record:
     view.series.push_back(std::move(series));
   };
   for (const StepRow& row : rows) view.step_times.push_back(row.time);
-  add("sweeps a step", "", [](const StepRow& r) { return double(r.sweeps); });
+  const bool has_neurons = !rows.empty() && rows.front().sweeps > 0; // rivals have none
+  if (has_neurons) add("sweeps a step", "", [](const StepRow& r) { return double(r.sweeps); });
   if (facts.fixed) add("array cycles a step", "", [](const StepRow& r) { return double(r.cycles); });
   add("elastic energy", "J", [](const StepRow& r) { return r.energy; });
   add("kinetic energy", "J", [](const StepRow& r) { return r.kinetic; });
   add("largest strain", "%", [](const StepRow& r) { return 100 * r.max_strain; });
-  add("outputs at +1 or -1", "", [](const StepRow& r) { return double(r.saturated); });
+  if (has_neurons) add("outputs at +1 or -1", "", [](const StepRow& r) { return double(r.saturated); });
   if (rows.empty() || !rows.front().error) return;
   add("largest output error against the reference", "",
       [](const StepRow& r) { return r.error->largest_output; });
@@ -64,9 +65,11 @@ FigureTable run_table(const RunFacts& facts, const Totals& t, double seconds) {
   rows.push_back({"steps", grouped(t.steps)});
   rows.push_back({"wall time", fmt::format("{:.2f} s", seconds)});
   rows.push_back({"steps/s", fmt::format("{:.1f}", rate(static_cast<double>(t.steps)))});
-  rows.push_back({"sweeps", grouped(t.sweeps)});
-  rows.push_back({"steps stopped by max_sweeps", grouped(t.unconverged)});
-  rows.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(static_cast<double>(t.updates)))});
+  if (t.sweeps > 0) {
+    rows.push_back({"sweeps", grouped(t.sweeps)});
+    rows.push_back({"steps stopped by max_sweeps", grouped(t.unconverged)});
+    rows.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(static_cast<double>(t.updates)))});
+  }
   if (facts.fixed) {
     const double hardware = static_cast<double>(t.cycles + t.bus_cycles) / facts.inputs.array.clock_mhz / 1e6;
     rows.push_back(

@@ -2,26 +2,27 @@
 
 namespace hopmesh::study {
 
-StepMemory::StepMemory(const BuiltMesh& mesh) {
-  position.reserve(3 * mesh.nodes());
-  for (const auto& x : mesh.mesh().position) position.insert(position.end(), x.begin(), x.end());
-  velocity.assign(position.size(), 0.0);
-  acceleration = predicted = previous_position = previous_velocity = velocity;
+StepMemory::StepMemory(const BuiltMesh& mesh, bool two_steps) {
+  now.position.reserve(3 * mesh.nodes());
+  for (const auto& x : mesh.mesh().position) now.position.insert(now.position.end(), x.begin(), x.end());
+  now.velocity.assign(now.position.size(), 0.0);
+  now.acceleration = predicted = now.velocity;
+  if (two_steps) now.previous_position = now.previous_velocity = now.velocity;
   energy_change.assign(mesh.cells(), 0.0);
   direction.assign(3 * mesh.cells(), 0.0);
   start.assign(mesh.cells() * mesh.components(), 0.0);
-  bias = output = start;
+  bias = now.output = start;
   weight.assign(hm_weight_count(&mesh.firmware()), 0.0);
-  state.position = position.data();
-  state.velocity = velocity.data();
-  state.acceleration = acceleration.data();
-  state.previous_position = previous_position.data();
-  state.previous_velocity = previous_velocity.data();
+  state.position = now.position.data();
+  state.velocity = now.velocity.data();
+  state.acceleration = now.acceleration.data();
+  state.previous_position = now.previous_position.data();
+  state.previous_velocity = now.previous_velocity.data();
   state.predicted = predicted.data();
   state.energy_change = energy_change.data();
   state.direction = direction.data();
   state.start = start.data();
-  state.network = {weight.data(), bias.data(), output.data()};
+  state.network = {weight.data(), bias.data(), now.output.data()};
 }
 
 } // namespace hopmesh::study

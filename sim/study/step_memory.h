@@ -3,20 +3,22 @@
 
 #include "firmware/integrator.h"
 #include "sim/study/built_mesh.h"
+#include "sim/study/step_state.h"
 
 namespace hopmesh::study {
 
 /// A mesh at rest in its first position, and hm_state pointing into this object; it neither moves nor copies.
 struct StepMemory {
-  explicit StepMemory(const BuiltMesh& mesh);
+  /// `two_steps`: the motion looks back two steps (BDF2).
+  explicit StepMemory(const BuiltMesh& mesh, bool two_steps = false);
   StepMemory(const StepMemory&) = delete;
   StepMemory& operator=(const StepMemory&) = delete;
 
-  std::vector<double> position, velocity, acceleration, predicted; ///< [nodes * 3]
-  std::vector<double> previous_position, previous_velocity;        ///< [nodes * 3]
-  std::vector<double> energy_change;                               ///< [cells]
-  std::vector<double> direction;                                   ///< [cells * 3]
-  std::vector<double> start, weight, bias, output;                 ///< as hm_network
+  StepState now;                           ///< as hm_state, but for the count of steps, which hm_state keeps
+  std::vector<double> predicted;           ///< [nodes * 3]
+  std::vector<double> energy_change;       ///< [cells]
+  std::vector<double> direction;           ///< [cells * 3]
+  std::vector<double> start, weight, bias; ///< as hm_network
   hm_state state{};
 };
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -31,7 +30,6 @@ template <class State> auto parts_of(State& state) {
 std::uint64_t hash_on(std::uint64_t before, const double* values, std::size_t count);
 
 /// The column `hash` of steps.csv: of these arrays in the order of parts_of, empty ones left out.
-std::uint64_t state_hash(std::initializer_list<const std::vector<double>*> parts);
 std::uint64_t state_hash(const StepState& state);
 
 } // namespace hopmesh::study

@@ -26,6 +26,7 @@ void write(record::CsvWriter& table, const Point& point, const PointRow& row) {
   cell(table, row.output_error), cell(table, row.position_error);
   for (const Maybe& error : row.reference_at) cell(table, error);
   for (const Maybe& error : row.truth_at) cell(table, error);
+  for (const Maybe& floor : row.floor_at) cell(table, floor);
   table.cell(row.steps).cell(row.sweeps).cell(row.cycles).cell(row.bus_cycles).cell(row.array_seconds);
   table.cell(row.host_seconds).cell(row.multiplies).cell(row.memory_bits).cell(row.largest_strain);
   table.cell(row.omega).cell(row.sentence).cell(point.command).end_row();
@@ -38,8 +39,8 @@ std::vector<std::string> result_columns(const scene::Study& study) {
   for (const scene::StudyAxis& axis : study.axes) columns.push_back(axis.name);
   for (const char* name : {"method", "status", "class", "output_error", "position_error"})
     columns.emplace_back(name);
-  for (const char* kind : {"reference", "truth"})
-    for (double time : study.times) columns.push_back(fmt::format("{}_error@{}", kind, time));
+  for (const char* kind : {"reference_error", "truth_error", "truth_floor"})
+    for (double time : study.times) columns.push_back(fmt::format("{}@{}", kind, time));
   for (const char* name : {"steps", "sweeps", "cycles", "bus_cycles", "array_seconds", "host_seconds",
                            "multiplies", "memory_bits", "largest_strain", "omega", "sentence", "command"})
     columns.emplace_back(name);
@@ -82,6 +83,7 @@ void StudyFolder::keep(const Point& point, const PointRow& row) const {
   PointRow full = row; // a crash leaves errors open, but not their columns
   full.reference_at.resize(study_.times.size());
   full.truth_at.resize(study_.times.size());
+  full.floor_at.resize(study_.times.size());
   record::CsvWriter table(file_of(point.number), result_columns(study_));
   write(table, point, full);
   table.commit();

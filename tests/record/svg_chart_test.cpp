@@ -56,6 +56,15 @@ TEST(SvgMap, PlacesAreLogarithmicBetweenCellsMiddles) {
   EXPECT_NEAR(place_among({0, 10}, 5), 1.0, 1e-12) << "linear where a value is 0";
 }
 
+TEST(SvgMap, TheLegendSaysWhichLinesNobodySees) {
+  CellMap map{"m", "x", "y", {1, 2, 4}, {1, 2}, {{"stable", "#123456"}}, {}};
+  const std::vector<std::vector<MapCell>> cells(2, std::vector<MapCell>(3));
+  map.panels.push_back({"p", cells, {{"near", {{2, 1}, {2, 2}}}, {"far", {{50, 1}, {60, 2}}}}});
+  const std::string svg = svg_of(map);
+  EXPECT_NE(svg.find(">near</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">far (beyond the map)</text>"), std::string::npos);
+}
+
 TEST(SvgMap, HasACellAPoint) {
   CellMap map{"m", "x", "y", {1, 2}, {1, 2, 3}, {{"stable", "#123456"}}, {}};
   map.panels.push_back({"p", std::vector<std::vector<MapCell>>(3, std::vector<MapCell>(2)), {}});

@@ -1,5 +1,5 @@
 // Where explicit methods blow up: the largest frequency of the mesh says it.
-#include "sim/rivals/stiffness.h"
+#include "sim/scene/frequency.h"
 #include "tests/rivals/meshes.h"
 
 #include <cmath>
@@ -7,21 +7,6 @@
 
 namespace hopmesh::rivals::testing {
 namespace {
-
-// A chain of n free nodes, one end pinned, the other free: omega_j = 2 sqrt(k/m) sin((2j-1) pi / (4n + 2)).
-TEST(RivalsLimit, TheLargestFrequencyOfAChainIsInClosedForm) {
-  scene::Mesh mesh;
-  const std::uint32_t n = 12;
-  for (std::uint32_t k = 0; k <= n; ++k) {
-    mesh.position.push_back({0, 0, -double(k)});
-    mesh.pinned.push_back(k == 0);
-    if (k > 0) mesh.springs.push_back({{k - 1, k}, 7, 1});
-  }
-  mesh.mass = 0.4;
-  const Physics physics(mesh, {});
-  const double wanted = 2 * std::sqrt(14 / 0.4) * std::sin((2.0 * n - 1) * M_PI / (4 * n + 2));
-  EXPECT_NEAR(largest_omega(physics, physics.initial_state().position), wanted, 1e-4 * wanted);
-}
 
 /// Nearly at rest, disturbed a little everywhere: does the disturbance stay small?
 bool holds(const std::string& name, const Physics& physics, double time_step) {
@@ -45,7 +30,7 @@ TEST_P(RivalsStability, EndsWhereTheFrequencySays) {
   const auto& [name, limit, within] = GetParam();
   const scene::Mesh mesh = sheet(8, 50);
   const Physics physics(mesh, {});
-  const double omega = largest_omega(physics, physics.initial_state().position);
+  const double omega = scene::largest_frequency(mesh);
   EXPECT_TRUE(holds(name, physics, (1 - within) * limit / omega));
   EXPECT_FALSE(holds(name, physics, (1 + within) * limit / omega));
 }

@@ -1,15 +1,15 @@
 // The stiffest wave where a formula knows it.
-#include "sim/study/stiffness.h"
+#include "sim/scene/frequency.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::scene {
 namespace {
 
 /// `free` nodes in a row behind a pinned one, springs of weight alpha between neighbours.
-scene::Mesh chain(std::uint32_t free, double alpha, double mass) {
-  scene::Mesh mesh;
+Mesh chain(std::uint32_t free, double alpha, double mass) {
+  Mesh mesh;
   mesh.mass = mass;
   for (std::uint32_t i = 0; i <= free; ++i) {
     mesh.position.push_back({double(i), 0, 0});
@@ -19,11 +19,11 @@ scene::Mesh chain(std::uint32_t free, double alpha, double mass) {
   return mesh;
 }
 
-TEST(Stiffness, OneSpringSwingsAtTheRootOfKOverM) {
+TEST(Frequency, OneSpringSwingsAtTheRootOfKOverM) {
   EXPECT_NEAR(largest_frequency(chain(1, 50, 0.25)), std::sqrt(2 * 50 / 0.25), 1e-9);
 }
 
-TEST(Stiffness, AChainHasItsClosedForm) {
+TEST(Frequency, AChainHasItsClosedForm) {
   for (std::uint32_t n : {2u, 5u, 12u}) {
     const double pi = std::acos(-1.0), k = 2 * 3.0, m = 0.5;
     const double omega = 2 * std::sqrt(k / m) * std::sin((2 * n - 1) * pi / (4 * n + 2));
@@ -31,11 +31,11 @@ TEST(Stiffness, AChainHasItsClosedForm) {
   }
 }
 
-TEST(Stiffness, APinnedMeshHasNone) {
-  scene::Mesh mesh = chain(1, 1, 1);
+TEST(Frequency, APinnedMeshHasNone) {
+  Mesh mesh = chain(1, 1, 1);
   mesh.pinned[1] = true;
   EXPECT_EQ(largest_frequency(mesh), 0);
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::scene

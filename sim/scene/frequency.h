@@ -3,9 +3,9 @@
 
 #include "sim/scene/mesh.h"
 
-namespace hopmesh::study {
+namespace hopmesh::scene {
 
 /// sqrt of the largest eigenvalue of K / m at the start, 1/s; a spring of weight alpha has k = 2 alpha.
-double largest_frequency(const scene::Mesh& mesh);
+double largest_frequency(const Mesh& mesh);
 
-} // namespace hopmesh::study
+} // namespace hopmesh::scene

@@ -1,20 +1,17 @@
 // Power iteration over the springs: K is never written down.
-#include "sim/study/stiffness.h"
+#include "sim/scene/frequency.h"
 
 #include <cmath>
 
-namespace hopmesh::study {
+namespace hopmesh::scene {
 
 namespace {
-
-using scene::Vector3;
 
 constexpr int rounds = 2000;
 constexpr double close_enough = 1e-9; // relative change of the eigenvalue in a round
 
 /// y += K_spring x: k (w w^T + (1 - L/l)(1 - w w^T)) on the difference of the ends.
-void add_spring(const scene::Mesh& mesh, const scene::Spring& s, const std::vector<Vector3>& x,
-                std::vector<Vector3>& y) {
+void add_spring(const Mesh& mesh, const Spring& s, const std::vector<Vector3>& x, std::vector<Vector3>& y) {
   const std::uint32_t i = s.node[0], j = s.node[1];
   Vector3 w{}, d{};
   double length = 0, along = 0;
@@ -28,7 +25,7 @@ void add_spring(const scene::Mesh& mesh, const scene::Spring& s, const std::vect
   }
 }
 
-void hold(const scene::Mesh& mesh, std::vector<Vector3>& x) {
+void hold(const Mesh& mesh, std::vector<Vector3>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (mesh.pinned[i]) x[i] = {};
     if (mesh.planar) x[i][1] = 0;
@@ -51,7 +48,7 @@ std::vector<Vector3> first_guess(std::size_t nodes) {
 
 } // namespace
 
-double largest_frequency(const scene::Mesh& mesh) {
+double largest_frequency(const Mesh& mesh) {
   std::vector<Vector3> x = first_guess(mesh.nodes());
   hold(mesh, x);
   double value = 0;
@@ -61,7 +58,7 @@ double largest_frequency(const scene::Mesh& mesh) {
     for (Vector3& v : x)
       for (double& component : v) component /= size;
     std::vector<Vector3> y(mesh.nodes(), Vector3{});
-    for (const scene::Spring& s : mesh.springs) add_spring(mesh, s, x, y);
+    for (const Spring& s : mesh.springs) add_spring(mesh, s, x, y);
     hold(mesh, y);
     const double before = value;
     value = norm(y) / mesh.mass;
@@ -71,4 +68,4 @@ double largest_frequency(const scene::Mesh& mesh) {
   return std::sqrt(value);
 }
 
-} // namespace hopmesh::study
+} // namespace hopmesh::scene
