@@ -14,6 +14,41 @@ std::vector<std::uint32_t> levels(const spec::Topology& t) {
   return level;
 }
 
+/// Which groups are linked across chunks: [groups][groups].
+std::vector<bool> linked_across(const spec::Topology& t, const std::vector<std::uint32_t>& group,
+                                std::size_t groups, std::size_t chunk_cells) {
+  std::vector<bool> across(groups * groups, false);
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k)
+      if (c / chunk_cells != t.link_to[k] / chunk_cells)
+        across[group[c] * groups + group[t.link_to[k]]] = true;
+  return across;
+}
+
+bool links_end_in_next_chunk(const spec::Topology& t, std::size_t chunk_cells) {
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k)
+      if (t.link_to[k] / chunk_cells > c / chunk_cells + 1) return false;
+  return true;
+}
+
+// A run of whole rows of a grid keeps the links along a row inside: then fewer groups meet across chunks, and
+// sweeps follow each other more closely. Rows are as long as links reach, or one cell shorter where the
+// diagonals are linked too.
+std::size_t chunk_for_links(const spec::Topology& t, const std::vector<std::uint32_t>& group,
+                            std::size_t groups, std::size_t wanted) {
+  const std::size_t reach = link_reach(t);
+  std::size_t best = std::max(wanted, reach), fewest = SIZE_MAX;
+  for (std::size_t row = std::max<std::size_t>(reach, 2) - 1; row <= reach; ++row) {
+    const std::size_t rows = (wanted + row - 1) / row * row;
+    if (!links_end_in_next_chunk(t, rows)) continue;
+    const std::vector<bool> across = linked_across(t, group, groups, rows);
+    const auto pairs = static_cast<std::size_t>(std::count(across.begin(), across.end(), true));
+    if (pairs < fewest) fewest = pairs, best = rows;
+  }
+  return best;
+}
+
 } // namespace
 
 std::vector<std::uint32_t> groups_of_cells(const spec::Topology& t, const spec::Phases& phases,
@@ -42,8 +77,9 @@ Layout::Layout(const spec::Topology& t, const spec::Phases& phases, spec::Schedu
   if (chunk_cells == 0)
     chunk_cells = std::max<std::size_t>(t.cells(), 1);
   else
-    chunk_cells = std::max(chunk_cells, link_reach(t));
+    chunk_cells = chunk_for_links(t, group, groups, chunk_cells);
   place(group, chunk_cells);
+  across_ = linked_across(t, group, groups, chunk_cells);
   find_sources(t);
 }
 

@@ -21,6 +21,11 @@ struct Layout {
   Layout(const spec::Topology& topology, const spec::Phases& phases, spec::Schedule schedule,
          std::size_t chunk_cells = 0);
 
+  /// Whether a link leads from a cell of one group to one of the other in another chunk.
+  bool groups_meet_across_chunks(std::size_t one, std::size_t other) const {
+    return across_[one * groups + other];
+  }
+
   std::size_t groups = 0, chunks = 1;
   std::vector<std::uint32_t> slot_of_cell; ///< slot = block * block_lanes + lane
   std::vector<std::uint32_t> cell_of_slot; ///< or no_cell
@@ -37,6 +42,8 @@ struct Layout {
  private:
   void place(const std::vector<std::uint32_t>& group, std::size_t chunk_cells);
   void find_sources(const spec::Topology& topology);
+
+  std::vector<bool> across_; ///< [groups][groups]
 };
 
 /// For each cell the group in which it fires.

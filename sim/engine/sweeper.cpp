@@ -14,12 +14,28 @@ Range part(std::size_t first, std::size_t last, std::size_t member, std::size_t 
   return {first + count * member / members, first + count * (member + 1) / members};
 }
 
+/// How many chunks each stage = sweep * groups + group stays behind the first one: the least that leaves
+/// every neighbour as plain sweeps would. Where two groups meet across chunks the later one comes to a chunk
+/// after the earlier one has left the chunk in front of it; else after it has left that same chunk. A team
+/// works on the stages of a wave at the same time, and keeps them one chunk further apart, so that they do
+/// not touch.
+std::vector<std::size_t> lags(const Layout& layout, std::size_t sweeps, bool team) {
+  std::vector<std::size_t> lag(sweeps * layout.groups, 0);
+  for (std::size_t k = 0; k < lag.size(); ++k)
+    for (std::size_t j = k - std::min(k, layout.groups); j < k; ++j) {
+      const bool meet = layout.groups_meet_across_chunks(j % layout.groups, k % layout.groups);
+      lag[k] = std::max(lag[k], lag[j] + (meet ? 1 : 0) + (team ? 1 : 0));
+    }
+  return lag;
+}
+
 } // namespace
 
 Sweeper::Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
                  std::size_t followed)
     : core_(core), layout_(layout),
       followed_(layout.chunks > 1 && schedule != spec::Schedule::synchronous ? followed : 1), team_(threads) {
+  if (followed_ > 1) lag_ = lags(layout, followed_, team_.size() > 1);
 }
 
 void Sweeper::prepare() {
@@ -81,20 +97,17 @@ std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limi
   return done;
 }
 
-// Stage k = sweep * groups + group comes to a chunk after stage k - 1 has left the chunk behind it, and
-// before stage k + 1 reaches the chunk in front: then a link, which reaches no further, finds every neighbour
-// as plain sweeps would leave it. Alone, a member takes the stages of a wave one after the other, each one
-// chunk behind the last; a team keeps them two chunks apart, so that a wave's stages do not touch and can be
-// shared out.
+// In wave w, stage k works on chunk w - lag[k]; alone, a member takes the stages of a wave one after the
+// other. Earlier stages than those `lags` asks about are further ahead still.
 void Sweeper::follow(std::size_t sweeps, std::size_t member, std::vector<Swept>& swept) {
-  const std::size_t stages = sweeps * layout_.groups, apart = team_.size() == 1 ? 1 : 2;
-  const std::size_t waves = layout_.chunks + apart * (stages - 1);
+  const std::size_t stages = sweeps * layout_.groups, waves = layout_.chunks + lag_[stages - 1];
+  std::size_t first = 0, last = 0;
   for (std::size_t wave = 0; wave < waves; ++wave) {
-    const std::size_t first = wave < layout_.chunks ? 0 : (wave - layout_.chunks) / apart + 1;
-    const std::size_t last = std::min(stages, wave / apart + 1);
+    while (last < stages && lag_[last] <= wave) ++last;
+    while (wave >= lag_[first] + layout_.chunks) ++first;
     const Range mine = part(first, last, member, team_.size());
     for (std::size_t k = mine.first; k < mine.last; ++k) {
-      const std::size_t at = (wave - apart * k) * layout_.groups + k % layout_.groups;
+      const std::size_t at = (wave - lag_[k]) * layout_.groups + k % layout_.groups;
       core_.fire(layout_.first_block[at], layout_.first_block[at + 1], swept[k / layout_.groups]);
     }
     team_.barrier();

@@ -42,6 +42,7 @@ class Sweeper {
   const Layout& layout_;
   std::size_t followed_;
   Team team_;
+  std::vector<std::size_t> lag_; ///< of each stage of `followed_` sweeps, in chunks
 };
 
 } // namespace hopmesh::engine

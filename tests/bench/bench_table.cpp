@@ -84,21 +84,21 @@ void print_parts(const Results& r) {
 /// What is not the array: a step by parts, and what comes once a run.
 void print_host(const Results& r) {
   fmt::print("\nThe host beside an array that costs nothing\n  "
-             "{:>9}{:>9}{:>8}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>9}{:>9}\n",
+             "{:>9}{:>11}{:>10}{:>8}{:>10}{:>10}{:>10}{:>11}{:>11}{:>11}{:>9}\n",
              "nodes", "network", "load", "back", "motion", "measures", "record", "us/step", "mesh", "finish",
              "peak");
   for (const auto& name : r.names("host")) {
     const auto at = [&](const char* counter) { return r.median("host/" + name, counter); };
     double step = 0;
     fmt::print("  {:>9}", name);
-    const std::vector<std::pair<const char*, int>> parts{{"network_us", 9},   {"load_us", 8},
-                                                         {"read_back_us", 8}, {"motion_us", 8},
-                                                         {"measures_us", 10}, {"record_us", 8}};
+    const std::vector<std::pair<const char*, int>> parts{{"network_us", 11},  {"load_us", 10},
+                                                         {"read_back_us", 8}, {"motion_us", 10},
+                                                         {"measures_us", 10}, {"record_us", 10}};
     for (const auto& [part, width] : parts) {
-      fmt::print("{:>{}.4g}", at(part), width);
+      fmt::print("{:>{}.1f}", at(part), width);
       step += at(part);
     }
-    fmt::print("{:>9.4g}{:>5.3g} ms{:>6.3g} ms{:>6.0f} MB\n", step, at("mesh_ms"), at("finish_ms"),
+    fmt::print("{:>11.1f}{:>8.1f} ms{:>8.0f} ms{:>6.0f} MB\n", step, at("mesh_ms"), at("finish_ms"),
                at("peak_mb"));
   }
 }

@@ -109,6 +109,33 @@ TEST(Layout, LetsNoLinkReachBeyondTheNextChunk) {
   EXPECT_GT(several, 30u);
 }
 
+TEST(Layout, KnowsWhichGroupsMeetAcrossChunks) {
+  for_each_case([&](const Case& one) {
+    const Layout l = one.layout();
+    const auto group = engine::groups_of_cells(one.topology, one.phases, one.schedule);
+    std::vector<bool> meet(l.groups * l.groups, false);
+    std::vector<std::size_t> chunk(one.topology.cells(), 0);
+    for (std::size_t c = 0; c < chunk.size(); ++c)
+      while (l.first_block[(chunk[c] + 1) * l.groups] <= l.slot_of_cell[c] / block_lanes) ++chunk[c];
+    for_each_link(one.topology, [&](auto a, auto b, auto) {
+      if (chunk[a] != chunk[b]) meet[group[a] * l.groups + group[b]] = true;
+    });
+    for (std::size_t k = 0; k < meet.size() && l.chunks > 1; ++k)
+      EXPECT_EQ(l.groups_meet_across_chunks(k / l.groups, k % l.groups), meet[k]) << k;
+  });
+}
+
+/// Whole rows: of 11 cells with diagonals, of 12 without.
+TEST(Layout, CutsGridsBetweenRows) {
+  for (const bool diagonals : {false, true}) {
+    const spec::Topology t = grid_topology(9, diagonals ? 11 : 12, diagonals);
+    const auto phases = phases_of(t, spec::Schedule::coloured);
+    EXPECT_EQ(Layout(t, phases, spec::Schedule::coloured, 5).chunks, 9u);
+    EXPECT_EQ(Layout(t, phases, spec::Schedule::coloured, 13).chunks, 5u);
+    EXPECT_EQ(Layout(t, phases, spec::Schedule::coloured, 0).chunks, 1u);
+  }
+}
+
 TEST(Layout, FindsEverySource) {
   for_each_case([](const Case& one) {
     const Layout l = one.layout();
