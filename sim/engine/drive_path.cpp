@@ -15,6 +15,7 @@ DrivePath::DrivePath(const Plan& plan) : plan_(plan), norm_bits_(norm_bits(plan)
     to_drive_ = lane_rounding(multiplier_places(plan), mode);
   } else {
     narrow_ = divides_narrowly();
+    apart_ = multiplies_row_by_row();
   }
 }
 
@@ -35,6 +36,15 @@ bool DrivePath::multiplies_narrowly() const {
   return places >= 0 && places <= 60 && multiplier <= 61 && product <= 61;
 }
 
+// r has reciprocal_bits of its own, and N from one to norm_bits_: that decides how far their product goes
+// down.
+bool DrivePath::multiplies_row_by_row() const {
+  const int most = norm_bits_ + plan_.reciprocal_bits - 2 - plan_.ratio_up;
+  const int least = plan_.reciprocal_bits - 1 - plan_.ratio_up;
+  return plan_.normaliser == spec::Normaliser::reciprocal && !plan_.exact && least >= 0 && most <= 60 &&
+         plan_.formats.accumulator.width + plan_.reciprocal_bits <= 61;
+}
+
 DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
   if (norm == 0 || plan_.normaliser != spec::Normaliser::reciprocal) return {};
   const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
@@ -47,6 +57,11 @@ DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
 
 void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const {
   std::copy_n(sum, lane_count, u);
+  if (apart_) {
+    scale_lanes_apart(u, rows.multiplier, rows.places, plan_.formats.drive.rounding);
+    limit_lanes(u, plan_.formats.drive);
+    return clamp_lanes(u, plan_.one_drive);
+  }
   if (!narrow_) {
     for (std::size_t l = 0; l < lane_count; ++l)
       u[l] = drive({rows.norm + l, rows.multiplier + l, rows.places + l}, sum[l]);

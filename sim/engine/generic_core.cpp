@@ -33,7 +33,10 @@ class GenericCore : public Core {
     reciprocal_ = norm_;
     places_.assign(neurons, 0);
     narrow_sums_ = !plan.exact && plan.sum_up <= 52;
+    narrow_bias_ = std::abs(plan.bias_down) <= 30;
     if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
+    if (narrow_bias_)
+      to_bias_ = lane_rounding(std::max(plan.bias_down, 0), plan.formats.accumulator.rounding);
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
@@ -94,6 +97,7 @@ class GenericCore : public Core {
   void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept);
   void sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps, const std::int32_t* bias,
                    std::int64_t* sum) const;
+  void begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const;
   void sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                      const std::int32_t* bias, std::int64_t* sum) const;
 
@@ -102,14 +106,14 @@ class GenericCore : public Core {
   const std::size_t per_cell_;
   const DrivePath path_;
   const LaneRounding to_state_, to_link_;
-  LaneRounding to_sum_;
-  bool narrow_sums_ = false;                      ///< a rounding accumulator stays within 63 bits
-  std::vector<std::size_t> first_weight_;         ///< of a block
-  AlignedVector<std::int32_t> weight_;            ///< [block][p][tap][lane]
-  AlignedVector<std::int32_t> bias_, state_;      ///< [block][p][lane]
-  AlignedVector<std::int32_t> link_, next_link_;  ///< [p][slot]
-  AlignedVector<std::int64_t> norm_, reciprocal_; ///< [block][p][lane]
-  std::vector<int> places_;                       ///< that s times the reciprocal is moved down
+  LaneRounding to_sum_, to_bias_;
+  bool narrow_sums_ = false, narrow_bias_ = false; ///< a rounding accumulator stays within 63 bits
+  std::vector<std::size_t> first_weight_;          ///< of a block
+  AlignedVector<std::int32_t> weight_;             ///< [block][p][tap][lane]
+  AlignedVector<std::int32_t> bias_, state_;       ///< [block][p][lane]
+  AlignedVector<std::int32_t> link_, next_link_;   ///< [p][slot]
+  AlignedVector<std::int64_t> norm_, reciprocal_;  ///< [block][p][lane]
+  std::vector<int> places_;                        ///< that s times the reciprocal is moved down
   std::array<AlignedVector<std::int32_t>, 2> kept_;
 };
 
@@ -173,13 +177,24 @@ void GenericCore::sum_exactly(const std::int32_t* w, const std::int32_t* in, std
   shift_and_add_lanes(sum, -plan_.bias_down, products, plan_.product_up);
 }
 
+void GenericCore::begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const {
+  const spec::NumberFormat& f = plan_.formats.accumulator;
+  if (narrow_bias_) {
+    const std::int64_t up = std::int64_t{1} << std::max(-plan_.bias_down, 0);
+    for (std::size_t l = 0; l < L; ++l) sum[l] = bias[l] * up;
+    round_lanes(sum, to_bias_);
+    return limit_lanes(sum, f);
+  }
+  for (std::size_t l = 0; l < L; ++l)
+    sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+}
+
 // The register is written once a beat, and each time rounded.
 void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                                 const std::int32_t* bias, std::int64_t* sum) const {
   const spec::NumberFormat& f = plan_.formats.accumulator;
   const auto lanes = static_cast<std::size_t>(plan_.lanes);
-  for (std::size_t l = 0; l < L; ++l)
-    sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+  begin_with_loss(bias, sum);
   if (narrow_sums_)
     return add_lane_groups(w, in, taps, lanes, plan_.sum_up, plan_.product_up, to_sum_, f, sum);
   for (std::size_t t = 0; t < taps; t += lanes) {

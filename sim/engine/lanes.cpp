@@ -2,6 +2,8 @@
 
 #include "sim/engine/widest.h"
 
+#include <cstring>
+
 namespace hopmesh::engine {
 
 namespace {
@@ -29,22 +31,69 @@ template <bool wrap, bool zero>
   return x < f.low ? f.low : x > f.high ? f.high : x;
 }
 
-template <bool wrap, bool zero>
+/// Eight lanes by name: sixteen in an array are taken apart by the compiler before it makes them wide.
+using Wide = std::int64_t __attribute__((vector_size(64)));
+using Narrow = std::int32_t __attribute__((vector_size(32)));
+constexpr std::size_t wide_lanes = 8;
+
+[[gnu::always_inline]] inline void widen(Wide& wide, const std::int32_t* from) {
+  Narrow narrow;
+  std::memcpy(&narrow, from, sizeof narrow);
+  wide = __builtin_convertvector(narrow, Wide);
+}
+
+/// One beat of a rounding accumulator, the products already moved up and `r.add` with them: what waits for
+/// the sum before it is the time all of it takes, and what a rounding mode does not do is left out.
+template <bool wrap, bool zero, bool sign_matters, bool odd_matters>
+[[gnu::always_inline]] inline void add_rounded(Wide& sum, const Wide& more, int up, const LaneRounding& r,
+                                               const LaneLimit& limit) {
+  Wide fine = (sum << up) + more;
+  if (sign_matters) fine += ((fine - r.add) >> 63) & r.add_if_negative;
+  if (odd_matters) fine += ((fine - r.add) >> r.places) & r.add_if_odd;
+  sum = fine >> r.places;
+  if (wrap)
+    sum = (sum << limit.unused) >> limit.unused;
+  else if (zero)
+    sum &= (sum >= limit.low) & (sum <= limit.high);
+  else
+    sum = sum < limit.low ? Wide{} + limit.low : sum > limit.high ? Wide{} + limit.high : sum;
+}
+
+template <bool wrap, bool zero, bool sign_matters, bool odd_matters>
 [[gnu::always_inline]] inline void add_groups(const std::int32_t* weights, const std::int32_t* links,
-                                              std::size_t taps, std::size_t group, std::int64_t by,
-                                              std::int64_t product_by, const LaneRounding& r,
+                                              std::size_t taps, std::size_t group, int up,
+                                              std::int64_t product_by, const LaneRounding& rounding,
                                               const LaneLimit& limit, std::int64_t* x) {
-  std::int64_t sum[lane_count];
-  for (std::size_t l = 0; l < lane_count; ++l) sum[l] = x[l];
+  const LaneRounding r = rounding;
+  Wide low_sum, high_sum, w, in;
+  std::memcpy(&low_sum, x, sizeof low_sum);
+  std::memcpy(&high_sum, x + wide_lanes, sizeof high_sum);
   for (std::size_t t = 0; t < taps;) {
-    std::int64_t products[lane_count] = {};
+    Wide low = {}, high = {};
     const std::size_t end = t + group < taps ? t + group : taps;
-    for (; t < end; ++t, weights += lane_count, links += lane_count)
-      for (std::size_t l = 0; l < lane_count; ++l) products[l] += std::int64_t{weights[l]} * links[l];
-    for (std::size_t l = 0; l < lane_count; ++l)
-      sum[l] = limited<wrap, zero>(rounded(sum[l] * by + products[l] * product_by, r), limit);
+    for (; t < end; ++t, weights += lane_count, links += lane_count) {
+      widen(w, weights), widen(in, links);
+      low += w * in;
+      widen(w, weights + wide_lanes), widen(in, links + wide_lanes);
+      high += w * in;
+    }
+    add_rounded<wrap, zero, sign_matters, odd_matters>(low_sum, low * product_by + r.add, up, r, limit);
+    add_rounded<wrap, zero, sign_matters, odd_matters>(high_sum, high * product_by + r.add, up, r, limit);
   }
-  for (std::size_t l = 0; l < lane_count; ++l) x[l] = sum[l];
+  std::memcpy(x, &low_sum, sizeof low_sum);
+  std::memcpy(x + wide_lanes, &high_sum, sizeof high_sum);
+}
+
+template <bool wrap, bool zero>
+[[gnu::always_inline]] inline void
+add_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps, std::size_t group,
+           int up, std::int64_t product_by, const LaneRounding& r, const LaneLimit& limit, std::int64_t* x) {
+  if (r.add_if_odd)
+    add_groups<wrap, zero, false, true>(weights, links, taps, group, up, product_by, r, limit, x);
+  else if (r.add_if_negative)
+    add_groups<wrap, zero, true, false>(weights, links, taps, group, up, product_by, r, limit, x);
+  else
+    add_groups<wrap, zero, false, false>(weights, links, taps, group, up, product_by, r, limit, x);
 }
 
 } // namespace
@@ -115,6 +164,21 @@ HM_WIDEST void scale_lanes(std::int64_t* __restrict x, const std::int64_t* __res
   }
 }
 
+// What a rounding adds grows with half a unit: two numbers of places tell how.
+HM_WIDEST void scale_lanes_apart(std::int64_t* __restrict x, const std::int64_t* __restrict factor,
+                                 const int* __restrict places, spec::Rounding mode) {
+  const LaneRounding one = lane_rounding(1, mode), two = lane_rounding(2, mode);
+  const std::int64_t add = two.add - one.add, add_rest = one.add - add;
+  const std::int64_t sign = two.add_if_negative - one.add_if_negative;
+  const std::int64_t sign_rest = one.add_if_negative - sign, odd = one.add_if_odd;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t down = places[l], half = (std::int64_t{1} << down) >> 1;
+    const std::int64_t rounds = -static_cast<std::int64_t>(down > 0), y = x[l] * factor[l];
+    const std::int64_t always = add * half + add_rest, below = sign * half + sign_rest;
+    x[l] = (y + ((always + ((y >> 63) & below) + ((y >> down) & odd)) & rounds)) >> down;
+  }
+}
+
 HM_WIDEST void round_lanes(std::int64_t* __restrict x, const LaneRounding& rounding) {
   const LaneRounding r = rounding;
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = rounded(x[l], r);
@@ -135,13 +199,13 @@ HM_WIDEST void add_lane_groups(const std::int32_t* weights, const std::int32_t* 
                                const spec::NumberFormat& format, std::int64_t* x) {
   const LaneLimit f(format);
   const LaneRounding r = rounding;
-  const std::int64_t by = std::int64_t{1} << up, product_by = std::int64_t{1} << product_up;
+  const std::int64_t product_by = std::int64_t{1} << product_up;
   if (f.unused > 0)
-    add_groups<true, false>(weights, links, taps, group, by, product_by, r, f, x);
+    add_groups<true, false>(weights, links, taps, group, up, product_by, r, f, x);
   else if (f.zero)
-    add_groups<false, true>(weights, links, taps, group, by, product_by, r, f, x);
+    add_groups<false, true>(weights, links, taps, group, up, product_by, r, f, x);
   else
-    add_groups<false, false>(weights, links, taps, group, by, product_by, r, f, x);
+    add_groups<false, false>(weights, links, taps, group, up, product_by, r, f, x);
 }
 
 // A quotient of doubles is at most one off; the exact rest puts it right, and says how to round.

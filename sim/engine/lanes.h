@@ -39,6 +39,8 @@ void multiply_lanes(std::int64_t* x, const std::int64_t* factor);
 /// x <- x * factor rounded, held within [-bound, bound].
 void scale_lanes(std::int64_t* x, const std::int64_t* factor, const LaneRounding& rounding,
                  std::int64_t bound);
+/// x <- x * factor * 2^-places rounded, each lane by its own places in [0, 60]; products fit 62 bits.
+void scale_lanes_apart(std::int64_t* x, const std::int64_t* factor, const int* places, spec::Rounding mode);
 void round_lanes(std::int64_t* x, const LaneRounding& rounding);
 /// Each code brought into the format's range.
 void limit_lanes(std::int64_t* x, const spec::NumberFormat& format);

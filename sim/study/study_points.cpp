@@ -28,6 +28,17 @@ std::vector<const scene::AxisPlace*> places_of(const scene::Study& study, std::s
   return places;
 }
 
+/// {AXIS} in a value stands for the label of the point's place on that axis.
+std::string with_labels(std::string text, const scene::Study& study,
+                        const std::vector<const scene::AxisPlace*>& places) {
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    const std::string mark = '{' + study.axes[a].name + '}', &label = places[a]->label;
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + label.size()))
+      text.replace(at, mark.size(), label);
+  }
+  return text;
+}
+
 // "--set: KEY: ..." is told by the study's line that set the key.
 scene::InputError placed(const scene::Study& study, std::size_t number, const std::string& what) {
   const std::string by_override = "--set: ";
@@ -82,9 +93,11 @@ Point point_of(const scene::Study& study, std::size_t number) {
   Point point;
   point.number = number;
   point.method = study.methods[number / (study.combinations() / study.methods.size())];
-  for (const scene::AxisPlace* place : places_of(study, number)) {
+  const std::vector<const scene::AxisPlace*> places = places_of(study, number);
+  for (const scene::AxisPlace* place : places) {
     point.labels.push_back(place->label);
-    for (const scene::StudySetting& s : place->settings) point.overrides.push_back(s.key + '=' + s.text);
+    for (const scene::StudySetting& s : place->settings)
+      point.overrides.push_back(s.key + '=' + with_labels(s.text, study, places));
   }
   if (study.steps > 0) point.overrides.push_back(fmt::format("motion.steps={}", study.steps));
   point.command = command_of(study, point);

@@ -48,6 +48,21 @@ TEST_F(CliSweep, HasARowAPointInOrderWhateverTheWorkers) {
   EXPECT_GT(std::stod(rows[6][7]), 0);
 }
 
+TEST_F(CliSweep, TwoAxesMeetInOneKey) {
+  write_text(at("s.toml"),
+             "scene = \"two-nodes\"\nsteps = 3\n[axes.rounding]\nlabel = [\"SC_TRN\", \"SC_RND\"]\n"
+             "[axes.width]\nlabel = [8, 12]\n\"formats.state\" = \"fixed<{},2,{rounding},SC_SAT>\"\n"
+             "\"formats.link\" = \"fixed<{},2,{rounding},SC_SAT>\"\n");
+  good("sweep s.toml --out r");
+  const auto commands = read_table(at("r") / "results.csv").column.at("command");
+  ASSERT_EQ(commands.size(), 4u);
+  EXPECT_THAT(commands[1], HasSubstr("formats.state=\"fixed<12,2,SC_TRN,SC_SAT>\""));
+  EXPECT_THAT(commands[2], HasSubstr("formats.link=\"fixed<8,2,SC_RND,SC_SAT>\""));
+  write_text(at("t.toml"), "scene = \"two-nodes\"\n[axes.width]\nlabel = [8]\n"
+                           "\"formats.state\" = \"fixed<{},2,{rouning},SC_SAT>\"\n");
+  EXPECT_THAT(bad("sweep t.toml --out t"), HasSubstr("t.toml:4: formats.state"));
+}
+
 TEST_F(CliSweep, TheCommandOfARowRepeatsIt) {
   write_text(at("s.toml"), study);
   good("sweep s.toml --out r");
