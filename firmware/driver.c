@@ -271,13 +271,13 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
   const uint64_t bias = largest_bits(network->bias, neurons);
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
-  const int shift =
+  d->shift =
       d->normaliser == HM_NORMALISER_PRESCALED ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = 0;
   uint32_t status;
   TRY(read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
-  TRY(load_rows(d, mesh, network, shift));
+  TRY(load_rows(d, mesh, network, d->shift));
   TRY(load_outputs(d, mesh, network));
   TRY(start_and_wait(d, threshold, max_sweeps));
   TRY(read_counters(d, result));

@@ -18,6 +18,7 @@ typedef struct hm_driver {
   uint32_t normaliser;
   hm_format weight, bias, state;
   uint32_t clipped; /* weights and biases of the last load that did not fit their format */
+  int shift;        /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
 
 typedef struct hm_relaxation {
