@@ -18,7 +18,7 @@ struct SolveRequest {
   std::string rule, level = "engine", array, out;
   std::vector<std::string> overrides;
   std::int64_t sweeps = 10'000, seed = 0;
-  double threshold = 1e-6;
+  double threshold = 1e-4;
 };
 
 /// What is to be solved, from files or from the problem set.

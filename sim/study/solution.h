@@ -9,7 +9,7 @@
 namespace hopmesh::study {
 
 struct SolveOptions {
-  double threshold = 1e-6;
+  double threshold = 1e-4;
   std::uint32_t max_sweeps = 10'000;
 };
 
