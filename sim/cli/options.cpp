@@ -96,7 +96,7 @@ Level make_level(const std::string& name, const Prepared& p, bool check, const P
   level.name = name;
   const spec::ArraySpec& array = p.inputs.array;
   if (name == "reference") {
-    level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array.schedule);
+    level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array);
     return level;
   }
   const auto& rivals = rivals::names();

@@ -25,7 +25,7 @@ struct SolveRequest {
 struct Task {
   std::string name;
   study::NetworkData data;
-  bool binary = false;
+  std::string rule; ///< empty: the array's
   std::function<std::string(const std::vector<double>&)> verdict;
 };
 
@@ -40,7 +40,10 @@ Task task_of_problem(const SolveRequest& o) {
   if (!o.files.bias.empty())
     throw scene::input_error("", 0, "BIAS", o.files.bias, "none: a problem has its own");
   problems::Problem p = problems::make(name, static_cast<std::uint64_t>(std::max<std::int64_t>(1, o.seed)));
-  Task task{name, {std::move(p.W), std::move(p.bias), std::move(p.start)}, p.binary, std::move(p.verdict)};
+  Task task{name,
+            {std::move(p.W), std::move(p.bias), std::move(p.start)},
+            p.binary ? "binary" : "modified",
+            std::move(p.verdict)};
   if (!o.files.start.empty()) task.data.start = study::read_start(o.files.start, task.data.W.rows);
   return task;
 }
@@ -48,13 +51,18 @@ Task task_of_problem(const SolveRequest& o) {
 Task task_of(const SolveRequest& o) {
   if (is_name(o.files.weights)) return task_of_problem(o);
   if (o.seed > 0) throw scene::input_error("", 0, "--seed", "a file", "the name of a problem");
-  return {o.files.weights, study::read_network(o.files), false, nullptr};
+  return {o.files.weights, study::read_network(o.files), "", nullptr};
 }
 
 spec::ArraySpec array_of(const SolveRequest& o) {
   std::vector<std::pair<std::string, std::string>> overrides;
   for (const std::string& text : o.overrides) overrides.push_back(scene::split_override(text));
   return scene::read_array(o.array, overrides);
+}
+
+// A rule is the array's output stage under the paper's name.
+void apply_rule(const std::string& rule, spec::ArraySpec& array) {
+  if (!rule.empty()) array.output = *spec::mode_named<spec::Output>(rule, spec::output_names);
 }
 
 void check_array(const spec::ArraySpec& array, const spec::Topology& topology, const std::string& file) {
@@ -79,9 +87,11 @@ int solve(const SolveRequest& o) {
   check_level(o.level, "--level", level_names());
   if (!(o.threshold >= 0 && o.threshold <= 2))
     throw scene::input_error("", 0, "--threshold", fmt::format("{}", o.threshold), "a number from 0 to 2");
-  const spec::ArraySpec array = array_of(o);
+  if (!o.rule.empty()) check_level(o.rule, "--rule", {"modified", "binary"});
+  spec::ArraySpec array = array_of(o);
   const Task task = task_of(o);
-  const study::GivenNetwork network(task.data, 0.0);
+  apply_rule(o.rule.empty() ? task.rule : o.rule, array);
+  const study::GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), o.array);
   if (!o.out.empty()) record::check_writable(o.out, network.neurons() * 32);
   catch_interrupts();
@@ -91,7 +101,8 @@ int solve(const SolveRequest& o) {
       port ? study::array_level(network, array, *port) : study::reference_level(network, array);
   try {
     return finish(o, task, network, *level,
-                  {task.name, o.level, "modified", std::string(spec::name_of(array.schedule)), ""});
+                  {task.name, o.level, std::string(spec::name_of(array.output)),
+                   std::string(spec::name_of(array.schedule)), ""});
   } catch (const study::Stopped&) {
     return interrupted;
   }
@@ -106,7 +117,10 @@ void add_solve(CLI::App& program, int& exit_code) {
   verb->add_option("W", o->files.weights, "weights: a Matrix Market file, or the name of a problem")
       ->required();
   verb->add_option("BIAS", o->files.bias, "biases, one column; none: 0");
-  verb->add_option("--start", o->files.start, "outputs at the start, one column from -1 to 1; none: 0");
+  verb->add_option("--start", o->files.start,
+                   "outputs at the start, one column from -1 to 1; none: 0, or 1 where binary");
+  verb->add_option("--rule", o->rule,
+                   "modified | binary: array.output; none: as the problem or the array has it");
   verb->add_flag("--asymmetric", o->files.asymmetric, "W may be so: then nothing says that energy falls");
   verb->add_option("--level", o->level, "reference | engine | systemc | systemc-clock")
       ->capture_default_str();

@@ -7,6 +7,7 @@ namespace hopmesh::engine {
 
 DrivePath::DrivePath(const Plan& plan) : plan_(plan), norm_bits_(norm_bits(plan)) {
   const spec::Rounding mode = plan.formats.drive.rounding;
+  if (plan.binary) return;
   if (plan.normaliser == spec::Normaliser::prescaled && plan.scaled_down >= 0) {
     narrow_ = true;
     to_drive_ = lane_rounding(plan.scaled_down, mode);
@@ -36,7 +37,7 @@ bool DrivePath::multiplies_narrowly() const {
 }
 
 DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
-  if (norm == 0 || plan_.normaliser != spec::Normaliser::reciprocal) return {};
+  if (norm == 0 || plan_.binary || plan_.normaliser != spec::Normaliser::reciprocal) return {};
   const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
   const std::int64_t r = exponent < 63
                              ? static_cast<std::int64_t>((std::uint64_t{1} << exponent) / norm)
@@ -47,6 +48,7 @@ DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
 
 void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const {
   std::copy_n(sum, lane_count, u);
+  if (plan_.binary) return sign_lanes(u, plan_.one_drive);
   if (!narrow_) {
     for (std::size_t l = 0; l < lane_count; ++l)
       u[l] = drive({rows.norm + l, rows.multiplier + l, rows.places + l}, sum[l]);
@@ -67,6 +69,7 @@ void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* 
 }
 
 std::int64_t DrivePath::drive(const Rows& row, std::int64_t sum) const {
+  if (plan_.binary) return sum > 0 ? plan_.one_drive : sum < 0 ? -plan_.one_drive : 0;
   const spec::NumberFormat& f = plan_.formats.drive;
   const std::int64_t norm = *row.norm;
   const int up = plan_.ratio_up;

@@ -13,18 +13,21 @@ using reference::Vector;
 class ReferenceLevel : public NetworkLevel {
  public:
   ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array)
-      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)), V_(network.start()) {}
+      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)),
+        output_(array.output == spec::Output::binary ? reference::Output::binary
+                                                     : reference::Output::modified),
+        V_(network.start()) {}
 
   Rest relax(double threshold, std::uint32_t max_sweeps) override {
     reference::Relaxation end =
-        reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps);
+        reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps, output_);
     V_ = std::move(end.V);
     return {end.sweeps, end.converged, 0, 0};
   }
   void restart() override { V_ = network_.start(); }
   double sweep() override {
     const Vector before = V_;
-    V_ = reference::relax(network_.network(), order_, V_, 0, 1).V;
+    V_ = reference::relax(network_.network(), order_, V_, 0, 1, output_).V;
     return (V_ - before).cwiseAbs().maxCoeff();
   }
   const Vector& outputs() const override { return V_; }
@@ -32,6 +35,7 @@ class ReferenceLevel : public NetworkLevel {
  private:
   const GivenNetwork& network_;
   const reference::Order order_;
+  const reference::Output output_;
   Vector V_;
 };
 
@@ -80,7 +84,8 @@ class ArrayLevel : public NetworkLevel {
   const Vector& outputs() const override { return V_; }
 
   std::optional<reference::Network> loaded() const override {
-    if (array_.normaliser == spec::Normaliser::prescaled) return std::nullopt;
+    if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)
+      return std::nullopt;
     const double unit = hm_power_of_two(-driver_.shift);
     return network_.network_of(counted(there_.weights(), unit * last_place(driver_.weight)),
                                counted(there_.biases(), unit * last_place(driver_.bias)));
