@@ -102,7 +102,7 @@ class MarketReader {
     std::size_t n = 0;
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), n);
     if (failure != std::errc() || end != word.data() + word.size() || n < least || n > most)
-      fail(word.empty() ? fmt::format("no {}", name) : scene::in_quotes(word),
+      fail(word.empty() ? "the end of the line" : scene::in_quotes(word),
            fmt::format("{}, an integer from {} to {}", name, least, most));
     return n;
   }
@@ -114,7 +114,7 @@ class MarketReader {
     double x = 0;
     const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (failure != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x))
-      fail(word.empty() ? "no value" : scene::in_quotes(word), "a finite number");
+      fail(word.empty() ? "the end of the line" : scene::in_quotes(word), "a finite number");
     return x;
   }
 
