@@ -14,8 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-std::ostream& operator<<(std::ostream& out, const MatrixEntry& e) {
-  return out << e.row << ',' << e.column << '=' << e.value;
+std::string text_of(const MatrixEntry& e) {
+  return std::to_string(e.row) + ',' + std::to_string(e.column) + '=' + std::to_string(e.value);
 }
 
 class MatrixMarket : public testing::Test {
@@ -29,9 +29,9 @@ class MatrixMarket : public testing::Test {
   static void expect_entries(const SparseMatrix& m, const std::vector<MatrixEntry>& expected) {
     ASSERT_EQ(m.entries.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
-      EXPECT_EQ(m.entries[k].row, expected[k].row) << m.entries[k];
-      EXPECT_EQ(m.entries[k].column, expected[k].column) << m.entries[k];
-      EXPECT_EQ(m.entries[k].value, expected[k].value) << m.entries[k];
+      EXPECT_EQ(m.entries[k].row, expected[k].row) << text_of(m.entries[k]);
+      EXPECT_EQ(m.entries[k].column, expected[k].column) << text_of(m.entries[k]);
+      EXPECT_EQ(m.entries[k].value, expected[k].value) << text_of(m.entries[k]);
     }
   }
 
