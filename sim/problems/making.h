@@ -78,8 +78,9 @@ Problem bipartite_cut(std::size_t nodes, std::size_t edges, std::uint64_t seed);
 
 Problem queens(std::size_t n, std::uint64_t seed);
 
-/// Grid Laplacian with `screen` on its diagonal, pushed by a load that is strong enough for bounds to count.
-Problem grid_quadratic(std::size_t side, double screen, double load);
+/// Grid Laplacian with `screen` on its diagonal, pushed up and down patch by patch by a load that is strong
+/// enough for bounds to count.
+Problem grid_quadratic(std::size_t side, double screen, double load, std::size_t patch);
 /// About `degree` random couplings a neuron; `margin`: W_ii = -(1 + margin) sum |W_ij|.
 Problem random_quadratic(std::size_t neurons, std::size_t degree, double margin);
 /// Diagonal above 0: the least energy is at a corner.

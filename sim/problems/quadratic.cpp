@@ -8,8 +8,8 @@ namespace hopmesh::problems {
 namespace {
 
 std::string count_at_bounds(const std::vector<double>& V) {
-  const auto at = std::count_if(V.begin(), V.end(), [](double v) { return std::abs(v) >= 0.999; });
-  return fmt::format("{} of {} outputs at a bound", at, V.size());
+  const auto at = std::count_if(V.begin(), V.end(), [](double v) { return std::abs(v) >= 0.99; });
+  return fmt::format("{} of {} outputs within 0.01 of a bound", at, V.size());
 }
 
 Problem started_at_zero(Problem p) {
@@ -31,9 +31,10 @@ void couple_at_random(Couplings& couplings, std::size_t neurons, std::size_t deg
 
 } // namespace
 
-Problem grid_quadratic(std::size_t side, double screen, double load) {
+Problem grid_quadratic(std::size_t side, double screen, double load, std::size_t patch) {
   Problem p;
-  p.about = fmt::format("grid Laplacian {} x {} + {}, half pushed up, half down", side, side, screen);
+  p.about = fmt::format("grid Laplacian {} x {} + {}, in patches of {} x {} pushed up and down", side, side,
+                        screen, patch, patch);
   Couplings couplings(side * side);
   for (std::size_t r = 0; r < side; ++r)
     for (std::size_t c = 0; c < side; ++c) {
@@ -41,7 +42,7 @@ Problem grid_quadratic(std::size_t side, double screen, double load) {
       couplings.add(i, i, -4 - screen);
       if (c + 1 < side) couplings.add(i, i + 1, 1);
       if (r + 1 < side) couplings.add(i, i + side, 1);
-      p.bias.push_back(2 * c < side ? load : -load);
+      p.bias.push_back((r / patch + c / patch) % 2 == 0 ? load : -load);
     }
   p.W = couplings.matrix();
   return started_at_zero(std::move(p));

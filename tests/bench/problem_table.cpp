@@ -21,6 +21,11 @@ struct Exact {
   const char* by;
 };
 
+bool has_many_starts(const Problem& p) {
+  const auto& names = problems::names();
+  return std::count(names.begin(), names.end(), p.name) > 0 && problems::make(p.name, 2).start != p.start;
+}
+
 bool is_convex(const Problem& p) {
   return p.name.rfind("box-", 0) == 0 && p.name.rfind("box-corner", 0) != 0;
 }
@@ -35,7 +40,8 @@ std::optional<Exact> exact_of(const Problem& p) {
                                              : "solver, from the same start"};
 }
 
-/// Of many starts: the least energy found, and how often.
+/// Of many starts: the least energy found, and how often it is the exact one (as outputs near bounds have
+/// it).
 std::string of_many(const ProblemRuns& runs, const Problem& p, const std::optional<Exact>& exact) {
   double least = 0;
   int exactly = 0;
@@ -43,7 +49,7 @@ std::string of_many(const ProblemRuns& runs, const Problem& p, const std::option
   for (int seed = 1; seed <= starts; ++seed) {
     const Solved s = runs.solve(p.name, "engine", fmt::format("--seed {}", seed));
     if (seed == 1 || s.energy < least) least = s.energy, best = s.verdict;
-    exactly += exact && s.energy <= exact->energy + 1e-9;
+    exactly += exact && s.energy <= exact->energy + 0.01;
   }
   const std::string often = exact ? fmt::format(", the least in {} of {}", exactly, starts) : "";
   return fmt::format("best of {}: {}{}", starts, best, often);
@@ -58,7 +64,7 @@ void print_row(const ProblemRuns& runs, const Problem& p, const std::string& wha
   }
   const Solved reference = runs.solve(what, "reference");
   const auto exact = exact_of(p);
-  const std::string remark = p.binary ? of_many(runs, p, exact) : engine.verdict;
+  const std::string remark = has_many_starts(p) ? of_many(runs, p, exact) : engine.verdict;
   const std::string gap =
       exact ? fmt::format("{:.2g} | {}", (engine.energy - exact->energy) / std::abs(exact->energy), exact->by)
             : "– | none known";
