@@ -54,8 +54,9 @@ TEST(SingleCells, HubsAmongShortRows) {
     }
     job.threshold = 0, job.max_sweeps = 2;
     expect_everywhere(job);
+    const Codes rest = run_slow_array(job).output();
     for (std::size_t c = 0; c < topology.cells(); c += 3) // nothing moves them
-      ASSERT_EQ(run_slow_array(job).output()[c], std::min(std::max(job.start[c], -(1 << 22)), 1 << 22));
+      ASSERT_EQ(rest[c], std::min(std::max(job.start[c], -(1 << 22)), 1 << 22));
   }
 }
 
