@@ -78,15 +78,15 @@ TEST_F(CliSolve, TwoNeuronsOfMyOwn) {
 }
 
 TEST_F(CliSolve, WithoutBiasAndStartBothAreZero) {
-  write_matrix("W.mtx", {{-2, 1}, {1, -2}});
+  write_matrix("W.mtx", {{0, 1}, {1, 0}});
   good("solve W.mtx --out o");
   EXPECT_EQ(outputs("o"), (std::vector<double>{0, 0}));
-  good("solve W.mtx --out b --rule binary"); // signs: s = -1 of each
-  EXPECT_EQ(column("b", "energy")[0], 1.0);  // from (1, 1)
+  good("solve W.mtx --out b --rule binary"); // there it is 1
+  EXPECT_EQ(outputs("b"), (std::vector<double>{1, 1}));
 }
 
 TEST_F(CliSolve, EmptyRowsStayAsTheyAre) {
-  write_matrix("W.mtx", {{-1, 0, 1}, {0, 0, 0}, {1, 0, -2}});
+  write_matrix("W.mtx", {{0, 0, 1}, {0, 0, 0}, {1, 0, 0}});
   write_vector("bias.mtx", {0.5, 0, 0});
   write_vector("V0.mtx", {0, 0.25, 0});
   for (const char* rule : {"modified", "binary"})
@@ -137,8 +137,8 @@ TEST_F(CliSolve, ArraysComeNearTheReference) {
 
 TEST_F(CliSolve, BinaryLevelsAgreeWithTheReferenceWhereWeightsAreExact) {
   for (const std::string name : {"cut-24", "queens-8"}) { // weights of 1 and 1/2: nothing is rounded
-    good("solve " + name + " --level reference --out r");
-    good("solve " + name + " --out e");
+    good("solve " + name + " --rule binary --level reference --out r");
+    good("solve " + name + " --rule binary --out e");
     EXPECT_EQ(outputs("r"), outputs("e")) << name;
     EXPECT_EQ(summary("r")["sweeps"], summary("e")["sweeps"]) << name;
   }
@@ -260,7 +260,7 @@ TEST_F(CliSolve, ProblemsAreListedAndWritten) {
   EXPECT_GE(lines.size(), 20u);
   EXPECT_THAT(good("problem queens-8 --seed 3 --out q").out, HasSubstr("queens-8: 8 queens on a board"));
   EXPECT_EQ(names_in(at("q")), (std::vector<std::string>{"V0.mtx", "W.mtx", "bias.mtx"}));
-  good("solve q/W.mtx q/bias.mtx --start q/V0.mtx --rule binary --out a");
+  good("solve q/W.mtx q/bias.mtx --start q/V0.mtx --out a");
   good("solve queens-8 --seed 3 --out b");
   EXPECT_TRUE(content_of(at("a/V.mtx")) == content_of(at("b/V.mtx")));
   EXPECT_TRUE(content_of(at("a/solve.csv")) == content_of(at("b/solve.csv")));
