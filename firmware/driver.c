@@ -70,6 +70,7 @@ int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_
   TRY(expect(d, HM_REG_VERSION, HM_VERSION_VALUE, HM_ERROR_ID));
   TRY(expect_mesh(d, mesh));
   TRY(read_register(d, HM_REG_CAP_NORMALISER, &d->normaliser));
+  TRY(read_register(d, HM_REG_CAP_OUTPUT, &d->output));
   TRY(read_format(d, HM_REG_CAP_FORMAT_WEIGHT, &d->weight));
   TRY(read_format(d, HM_REG_CAP_FORMAT_BIAS, &d->bias));
   TRY(read_format(d, HM_REG_CAP_FORMAT_STATE, &d->state));
@@ -211,8 +212,13 @@ static int load_prescaled_biases(hm_driver* d, const hm_mesh* mesh, const hm_net
   return flush(&biases);
 }
 
+/* Only the sign of a binary neuron's s counts: no row is divided, and W stays symmetric. */
+static int prescales(const hm_driver* d) {
+  return d->output == HM_OUTPUT_MODIFIED && d->normaliser == HM_NORMALISER_PRESCALED;
+}
+
 static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  if (d->normaliser == HM_NORMALISER_PRESCALED) {
+  if (prescales(d)) {
     TRY(load_prescaled_weights(d, mesh, network));
     return load_prescaled_biases(d, mesh, network);
   }
@@ -271,13 +277,12 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
   const uint64_t bias = largest_bits(network->bias, neurons);
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
-  const int shift =
-      d->normaliser == HM_NORMALISER_PRESCALED ? 0 : block_exponent(d, value_of(weight), value_of(bias));
+  d->shift = prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = 0;
   uint32_t status;
   TRY(read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
-  TRY(load_rows(d, mesh, network, shift));
+  TRY(load_rows(d, mesh, network, d->shift));
   TRY(load_outputs(d, mesh, network));
   TRY(start_and_wait(d, threshold, max_sweeps));
   TRY(read_counters(d, result));

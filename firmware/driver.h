@@ -15,9 +15,10 @@ typedef struct hm_driver {
   const hm_bus* bus;
   uint32_t* buffer; /* caller's: room for one burst */
   uint32_t buffer_words;
-  uint32_t normaliser;
+  uint32_t normaliser, output;
   hm_format weight, bias, state;
   uint32_t clipped; /* weights and biases of the last load that did not fit their format */
+  int shift;        /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
 
 typedef struct hm_relaxation {

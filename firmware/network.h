@@ -19,7 +19,9 @@ typedef struct hm_spring {
 } hm_spring;
 
 /* The mesh as the firmware sees it. Cells are the free nodes in ascending node order. A component p of a
-   neuron acts along coordinate axis[p]: {0, 1, 2}, or {0, 2} in a planar mesh, where y never moves. */
+   neuron acts along coordinate axis[p]: {0, 1, 2}, or {0, 2} in a planar mesh, where y never moves. A network
+   that is no mesh has cells of one component and links, but no nodes and no springs: the driver asks for
+   nothing else. */
 typedef struct hm_mesh {
   uint32_t nodes, springs, cells, components;
   uint32_t axis[3];

@@ -42,7 +42,7 @@ inline std::optional<SpecFault> accumulator_fault(const ArraySpec& a, std::size_
 } // namespace detail
 
 /// Nothing if the array can be built for rows of at most `taps` inputs, else the first rule it breaks.
-inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 3) {
+inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 1) {
   const Formats& f = a.formats;
   if (auto fault = detail::format_fault("formats.weight", f.weight, 1)) return fault;
   if (auto fault = detail::format_fault("formats.bias", f.bias, 1)) return fault;

@@ -18,11 +18,18 @@ inline constexpr std::array<std::string_view, 3> schedule_names{"coloured", "seq
 enum class Normaliser : std::uint8_t { prescaled, reciprocal, divider };
 inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "reciprocal", "divider"};
 
+/// How V follows from s: a step toward the bound that s points to, by s / N; or that bound at once, sign(s).
+enum class Output : std::uint8_t { modified, binary };
+inline constexpr std::array<std::string_view, 2> output_names{"modified", "binary"};
+
 inline std::string_view name_of(Schedule s) {
   return schedule_names[static_cast<std::size_t>(s)];
 }
 inline std::string_view name_of(Normaliser n) {
   return normaliser_names[static_cast<std::size_t>(n)];
+}
+inline std::string_view name_of(Output o) {
+  return output_names[static_cast<std::size_t>(o)];
 }
 
 /// Number format of each class of signals. `bias` counts in units of weight (its point lies where it says).
@@ -40,13 +47,24 @@ struct ArraySpec {
   std::string name = "custom";
   Schedule schedule = Schedule::coloured;
   int lanes = 1; ///< multipliers per neuron: taps taken per cycle
-  Normaliser normaliser = Normaliser::divider;
-  int reciprocal_bits = 18; ///< width of the reciprocal's mantissa (unsigned, truncated)
+  Output output = Output::modified;
+  Normaliser normaliser = Normaliser::divider; ///< binary outputs need none, and none is looked at
+  int reciprocal_bits = 18;                    ///< width of the reciprocal's mantissa (unsigned, truncated)
   bool exact_accumulator = true;
   int bus_bits = 32;        ///< data width of the host bus: 32, 64 or 128
   double clock_mhz = 100.0; ///< only for times in seconds; changes neither bits nor cycles
   Formats formats;
 };
+
+/// Is N summed in the cell? Not where the host divides by it, nor where only the sign of s counts.
+inline bool sums_norm(const ArraySpec& a) {
+  return a.output == Output::modified && a.normaliser != Normaliser::prescaled;
+}
+
+/// Is there a reciprocal of N in the cell?
+inline bool has_reciprocal(const ArraySpec& a) {
+  return a.output == Output::modified && a.normaliser == Normaliser::reciprocal;
+}
 
 /// Width that holds every sum of a row of `taps` products and its bias without loss (docs/datapath.md).
 /// Its fraction is that of a product, or of the bias where that is finer.

@@ -55,25 +55,27 @@ inline std::uint64_t accumulate_cycles(const ArraySpec& a, std::size_t taps) {
   return (taps + a.lanes - 1) / a.lanes;
 }
 
-/// Prescaled: round (1). Reciprocal: multiply, shift and round (2). Divider: one quotient bit a cycle
-/// (fraction bits and the unit), then round.
+/// Binary: the sign of s (1). Prescaled: round (1). Reciprocal: multiply, shift and round (2). Divider: one
+/// quotient bit a cycle (fraction bits and the unit), then round.
 inline std::uint64_t normalise_cycles(const ArraySpec& a) {
-  if (a.normaliser == Normaliser::prescaled) return 1;
+  if (!sums_norm(a)) return 1;
   if (a.normaliser == Normaliser::reciprocal) return 2;
   return a.formats.drive.fraction_bits() + 2;
 }
 
-/// R u (1), new V onto state and link (1).
-inline constexpr std::uint64_t output_cycles = 2;
+/// R u (1; none where u is a sign), new V onto state and link (1).
+inline std::uint64_t output_cycles(const ArraySpec& a) {
+  return a.output == Output::binary ? 1 : 2;
+}
 
 inline CycleModel cycle_model(const ArraySpec& a, const Topology& t, const Phases& phases) {
   CycleModel m;
-  if (a.normaliser != Normaliser::prescaled) m.prepare = accumulate_cycles(a, t.most_taps());
-  if (a.normaliser == Normaliser::reciprocal) m.prepare += a.reciprocal_bits + 1;
+  if (sums_norm(a)) m.prepare = accumulate_cycles(a, t.most_taps());
+  if (has_reciprocal(a)) m.prepare += a.reciprocal_bits + 1;
   for (const auto& neurons : phases) {
     std::size_t taps = 0;
     for (std::uint32_t i : neurons) taps = std::max(taps, t.taps(i / t.neurons_per_cell));
-    m.phase.push_back(accumulate_cycles(a, taps) + normalise_cycles(a) + output_cycles);
+    m.phase.push_back(accumulate_cycles(a, taps) + normalise_cycles(a) + output_cycles(a));
     m.sweep += m.phase.back();
   }
   m.sweep += 1;

@@ -1,5 +1,6 @@
-// Which cells there are and which links join them. Cells stand only for free nodes; links only for springs
-// between two free nodes. Row layout of the weight memory follows from it and is used by every model.
+// Which cells there are and which links join them. In a mesh, cells stand only for free nodes and links only
+// for springs between two free nodes; any other network is cells of one neuron each, linked where either of
+// two weighs the other. Row layout of the weight memory follows from it and is used by every model.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@ namespace hopmesh::spec {
 /// The array's graph. Links are stored as compressed rows: cell c is joined to
 /// link_to[first_link[c]] ... link_to[first_link[c + 1] - 1], in ascending order, symmetric, without itself.
 struct Topology {
-  int neurons_per_cell = 3;              ///< 3, or 2 in a planar scene
+  int neurons_per_cell = 3;              ///< 3; 2 in a planar scene; 1 in a network that is no mesh
   std::vector<std::uint32_t> first_link; ///< cells + 1 entries
   std::vector<std::uint32_t> link_to;    ///< two entries per link
 

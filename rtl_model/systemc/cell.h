@@ -1,4 +1,4 @@
-// The hardware of one free node: two or three neurons and their link register, wired to mesh neighbours only.
+// The hardware of one node: up to three neurons and their link register, wired to neighbours only.
 #pragma once
 
 #include "rtl_model/systemc/neuron.h"

@@ -22,8 +22,8 @@ Datapath::Datapath(const spec::ArraySpec& array, const spec::NumberFormat& accum
                    std::size_t wires_of_a_source)
     : lanes(static_cast<std::size_t>(array.lanes)), per_source(wires_of_a_source),
       accumulator(accumulator_format), drive(array.formats.drive), state(array.formats.state),
-      link(array.formats.link), exact(array.exact_accumulator), normaliser(array.normaliser),
-      reciprocal_bits(array.reciprocal_bits),
+      link(array.formats.link), exact(array.exact_accumulator), binary(array.output == spec::Output::binary),
+      normaliser(array.normaliser), reciprocal_bits(array.reciprocal_bits),
       product_up(sum_fraction(array.formats) - product_fraction(array.formats)),
       sum_up(sum_fraction(array.formats) - accumulator.fraction_bits()),
       bias_places(array.formats.bias.fraction_bits() - accumulator.fraction_bits()),

@@ -13,7 +13,8 @@ struct Datapath {
 
   const std::size_t lanes, per_source;
   const spec::NumberFormat accumulator, drive, state, link;
-  const bool exact; ///< the accumulator has room for every place of every sum
+  const bool exact;  ///< the accumulator has room for every place of every sum
+  const bool binary; ///< u is the sign of s, and nothing is normalised
   const spec::Normaliser normaliser;
   const int reciprocal_bits;
 

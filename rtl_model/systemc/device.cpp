@@ -52,6 +52,7 @@ void Device::set_capabilities() {
   registers_.set(HM_REG_CAP_FORMAT_STATE, packed(a.formats.state));
   registers_.set(HM_REG_CAP_FORMAT_LINK, packed(a.formats.link));
   registers_.set(HM_REG_CAP_FORMAT_ACCUMULATOR, packed(spec::accumulator_format(a, t.most_taps())));
+  registers_.set(HM_REG_CAP_OUTPUT, word(a.output));
 }
 
 void Device::set_windows() {

@@ -33,7 +33,13 @@ Wide OutputStage::exact_ratio(std::int64_t sum_raw) const {
   return round_quotient<Wide>(Wide{sum_raw} * (Wide{1} << path_.ratio_up), norm_, mode);
 }
 
+// Behind a sign, R u is a whole number of the state's last places: nothing is left to round, V gets to its
+// bound at once, and stays where s is zero.
 void OutputStage::normalise(std::int64_t sum_raw) {
+  if (path_.binary) {
+    drive_ = limited(sum_raw, 1) * path_.drive.one_raw();
+    return;
+  }
   const auto mode = path_.drive.rounding;
   Wide ratio = 0;
   if (path_.normaliser == spec::Normaliser::prescaled)

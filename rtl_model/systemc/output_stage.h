@@ -1,4 +1,5 @@
-// Second part of a neuron: u = s / N, R = 1 - V or 1 + V, V <- V + R u (docs/datapath.md).
+// Second part of a neuron: u = s / N, or sign(s) where outputs are binary; R = 1 - V or 1 + V, V <- V + R u
+// (docs/datapath.md).
 #pragma once
 
 #include "rtl_model/systemc/datapath.h"
@@ -16,7 +17,7 @@ class OutputStage : public sc_core::sc_module {
 
   void
   set_norm(std::int64_t norm_raw); ///< once a run; for `reciprocal` this is where the reciprocal is divided
-  void normalise(std::int64_t sum_raw); ///< u <- limited Q[s / N]
+  void normalise(std::int64_t sum_raw); ///< u <- limited Q[s / N], or sign(s)
   void bias_by_r();                     ///< delta <- Q[R u]: the R bias pulls V to the bound that u points to
   std::int64_t publish();               ///< V <- V + delta; returns |delta|
 

@@ -42,7 +42,7 @@ int network(NetworkOptions& o) {
     throw scene::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   record::check_writable(o.out, p.mesh->topology().weight_words() * 48 + p.mesh->nodes() * 256);
-  study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array.schedule);
+  study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
   catch_interrupts();
   study::RunResult result;
   {

@@ -69,17 +69,15 @@ std::unique_ptr<study::ArrayPort> make_engine(const spec::ArraySpec& array, cons
   return port;
 }
 
-std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const Prepared& p,
-                                            const PortRequest& request) {
-  const spec::ArraySpec& array = p.inputs.array;
-  const spec::Topology& topology = p.mesh->topology();
+} // namespace
+
+std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const spec::ArraySpec& array,
+                                            const spec::Topology& topology, const PortRequest& request) {
   if (name == "engine") return make_engine(array, topology, request);
   const auto waking = name == "systemc" ? systemc::Waking::by_phase : systemc::Waking::by_clock;
   return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
                                        request.wave, stop_requested);
 }
-
-} // namespace
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names = level_names();
@@ -98,7 +96,7 @@ Level make_level(const std::string& name, const Prepared& p, bool check, const P
   level.name = name;
   const spec::ArraySpec& array = p.inputs.array;
   if (name == "reference") {
-    level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array.schedule);
+    level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array);
     return level;
   }
   const auto& rivals = rivals::names();
@@ -106,7 +104,7 @@ Level make_level(const std::string& name, const Prepared& p, bool check, const P
     level.motion = std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
     return level;
   }
-  level.port = make_port(name, p, request);
+  level.port = make_port(name, array, p.mesh->topology(), request);
   auto motion = std::make_unique<study::ArrayMotion>(p.inputs.scene, *p.mesh, array, *level.port, check);
   level.array = motion.get();
   level.motion = std::move(motion);

@@ -58,6 +58,11 @@ const std::vector<std::string>& level_names();
 std::vector<std::string> method_names();
 /// Throws scene::InputError for a name that is none of `names`; `flag` is where it stood.
 void check_level(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
+/// Throws scene::InputError for a name that no problem has; `where` it stood.
+void check_problem(const std::string& name, const std::string& where);
+/// The array of a level that is not the reference. What the engine says about its kernel goes to stderr.
+std::unique_ptr<study::ArrayPort> make_port(const std::string& level, const spec::ArraySpec& array,
+                                            const spec::Topology& topology, const PortRequest& request);
 /// A level or a rival.
 Level make_level(const std::string& name, const Prepared& prepared, bool check, const PortRequest& request);
 
@@ -70,5 +75,7 @@ void add_fuzz(CLI::App& program, int& exit_code);
 void add_sweep(CLI::App& program, int& exit_code);
 void add_chart(CLI::App& program, int& exit_code);
 void add_stability(CLI::App& program, int& exit_code);
+void add_solve(CLI::App& program, int& exit_code);
+void add_problem(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

@@ -41,6 +41,7 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
     array = presets[dice.below(presets.size())];
     array.schedule = static_cast<spec::Schedule>(dice.below(3));
     array.lanes = static_cast<int>(dice.between(1, 6));
+    if (dice.one_in(4)) array.output = spec::Output::binary;
   }
   if (!preset || spec::validate(array, topology.most_taps()))
     array = random_array(dice, topology.most_taps());

@@ -11,7 +11,7 @@ namespace hopmesh::cosim {
 Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
   const BusArray array(bus, job.topology);
   Answer a;
-  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_FORMAT_ACCUMULATOR; at += 4)
+  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4)
     a.capabilities.push_back(array.read(at));
   array.load(job);
   a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();

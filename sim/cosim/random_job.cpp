@@ -32,6 +32,19 @@ Edges random_edges(Dice& dice, std::size_t cells) {
   return edges;
 }
 
+Edges star_edges(std::size_t cells) {
+  Edges edges;
+  for (std::uint32_t c = 1; c < cells; ++c) edges.push_back({0, c});
+  return edges;
+}
+
+Edges all_edges(std::size_t cells) {
+  Edges edges;
+  for (std::uint32_t a = 0; a < cells; ++a)
+    for (std::uint32_t b = 0; b < a; ++b) edges.push_back({b, a});
+  return edges;
+}
+
 /// One row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
 void fill(Dice& dice, const spec::NumberFormat& format, std::int32_t* first, std::size_t count) {
   const std::uint64_t character = dice.below(8);
@@ -101,10 +114,10 @@ spec::Topology ring_topology(std::size_t cells, int neurons_per_cell) {
 }
 
 spec::Topology random_topology(Dice& dice, std::size_t most_cells) {
-  const int per_cell = dice.one_in(3) ? 2 : 3;
+  const int per_cell = static_cast<int>(dice.between(1, 3));
   const std::size_t cells =
       1 + dice.below(dice.one_in(3) ? std::min<std::size_t>(most_cells, 12) : most_cells);
-  switch (dice.below(8)) {
+  switch (dice.below(10)) {
   case 0:
     return topology_of(1, per_cell, {});
   case 1:
@@ -116,6 +129,12 @@ spec::Topology random_topology(Dice& dice, std::size_t most_cells) {
     const std::size_t rows = 1 + dice.below(cells);
     return grid_topology(rows, std::max<std::size_t>(1, cells / rows), dice.one_in(2), per_cell);
   }
+  case 5:
+    return topology_of(cells, per_cell, star_edges(cells)); // one row much longer than all others
+  case 6: {
+    const std::size_t few = std::min<std::size_t>(cells, 24);
+    return topology_of(few, per_cell, all_edges(few)); // a colour a cell
+  }
   default:
     return topology_of(cells, per_cell, random_edges(dice, cells));
   }
@@ -126,6 +145,7 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
   a.name = "random";
   do {
     a.schedule = static_cast<spec::Schedule>(dice.below(3));
+    a.output = dice.one_in(4) ? spec::Output::binary : spec::Output::modified;
     a.normaliser = static_cast<spec::Normaliser>(dice.below(3));
     a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, 64) : dice.between(1, 6));
     a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
@@ -180,10 +200,10 @@ std::string describe(const ArrayJob& job) {
   const spec::ArraySpec& a = job.array;
   const auto name = [](std::string_view v) { return std::string(v); };
   return std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell) +
-         ", " + name(spec::name_of(a.schedule)) + ", " + name(spec::name_of(a.normaliser)) + " " +
-         std::to_string(a.reciprocal_bits) + ", lanes " + std::to_string(a.lanes) + ", bus " +
-         std::to_string(a.bus_bits) + ", weight " + a.formats.weight.text() + ", bias " +
-         a.formats.bias.text() + ", accumulator " +
+         ", " + name(spec::name_of(a.schedule)) + ", " + name(spec::name_of(a.output)) + ", " +
+         name(spec::name_of(a.normaliser)) + " " + std::to_string(a.reciprocal_bits) + ", lanes " +
+         std::to_string(a.lanes) + ", bus " + std::to_string(a.bus_bits) + ", weight " +
+         a.formats.weight.text() + ", bias " + a.formats.bias.text() + ", accumulator " +
          (a.exact_accumulator ? "exact" : a.formats.accumulator.text()) + ", drive " +
          a.formats.drive.text() + ", state " + a.formats.state.text() + ", link " + a.formats.link.text() +
          ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);

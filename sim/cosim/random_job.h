@@ -37,7 +37,8 @@ spec::Topology topology_of(std::size_t cells, int neurons_per_cell, const Edges&
 /// Structural springs, and shear springs with `diagonals`, between rows * columns free nodes.
 spec::Topology grid_topology(std::size_t rows, std::size_t columns, bool diagonals, int neurons_per_cell = 3);
 spec::Topology ring_topology(std::size_t cells, int neurons_per_cell = 3);
-/// Single cells, grids, rings, trees, sparse graphs, isolated cells: 1 to `most_cells` of them.
+/// Single cells, grids, rings, trees, stars, sparse and full graphs, isolated cells: 1 to `most_cells` of
+/// them, of one to three neurons.
 spec::Topology random_topology(Dice& dice, std::size_t most_cells);
 
 /// Any array that spec::validate accepts for rows of `taps` inputs.

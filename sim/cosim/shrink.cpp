@@ -113,7 +113,7 @@ class Shrinker {
 
   bool fewer_components() {
     bool any = false;
-    for (int p = 0; p < job_.topology.neurons_per_cell && job_.topology.neurons_per_cell > 2;)
+    for (int p = 0; p < job_.topology.neurons_per_cell && job_.topology.neurons_per_cell > 1;)
       if (take(without_component(job_, p)))
         any = true;
       else
@@ -163,6 +163,8 @@ class Shrinker {
     any |= plainer<int>([](ArraySpec& a) -> int& { return a.bus_bits; }, 32);
     any |= plainer<int>([](ArraySpec& a) -> int& { return a.reciprocal_bits; }, 18);
     any |= plainer<bool>([](ArraySpec& a) -> bool& { return a.exact_accumulator; }, true);
+    any |=
+        plainer<spec::Output>([](ArraySpec& a) -> spec::Output& { return a.output; }, spec::Output::modified);
     any |= plainer<spec::Normaliser>([](ArraySpec& a) -> spec::Normaliser& { return a.normaliser; },
                                      spec::Normaliser::prescaled);
     any |= plainer<spec::Schedule>([](ArraySpec& a) -> spec::Schedule& { return a.schedule; },

@@ -12,8 +12,8 @@ using Differs = std::function<bool(const ArrayJob&)>;
 
 /// Greedy, until nothing more can be taken away one at a time: in the result, no single cell or link less, no
 /// weight, bias or start that is zero instead, or half as large, no sweep less, no threshold of zero, no
-/// third neuron less, and none of the array's settings made plain still differs. `job` itself must differ;
-/// every job tried is one that spec::validate accepts. Stops early, with the best so far, after
+/// neuron of every cell less, and none of the array's settings made plain still differs. `job` itself must
+/// differ; every job tried is one that spec::validate accepts. Stops early, with the best so far, after
 /// `most_trials`.
 ArrayJob shrink(ArrayJob job, const Differs& differs, std::uint64_t most_trials = 100'000);
 

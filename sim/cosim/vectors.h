@@ -11,7 +11,7 @@
 
 namespace hopmesh::cosim {
 
-inline constexpr const char* vectors_header = "hopmesh-vectors 1";
+inline constexpr const char* vectors_header = "hopmesh-vectors 2";
 
 struct VectorCase {
   std::string name; ///< one line

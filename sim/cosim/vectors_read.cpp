@@ -156,6 +156,7 @@ void VectorReader::read_array(spec::ArraySpec& a) {
     target = static_cast<int>(number(w[0], 0, 1'000'000, key));
   };
   choice("schedule", spec::schedule_names, a.schedule);
+  choice("output", spec::output_names, a.output);
   choice("normaliser", spec::normaliser_names, a.normaliser);
   count("reciprocal_bits", a.reciprocal_bits);
   count("lanes", a.lanes);
@@ -189,7 +190,7 @@ void VectorReader::read_links(spec::Topology& t) {
     return number(w[0], least, most, key);
   };
   const std::int64_t cells = one("cells", 1, scene::most_nodes);
-  t.neurons_per_cell = static_cast<int>(one("neurons_per_cell", 2, 3));
+  t.neurons_per_cell = static_cast<int>(one("neurons_per_cell", 1, 3));
   t.first_link = {0};
   std::vector<int> lines;
   for (std::int64_t c = 0; c < cells; ++c) {

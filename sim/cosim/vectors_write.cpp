@@ -11,9 +11,9 @@ namespace {
 std::string array_text(const ArrayJob& job) {
   const spec::ArraySpec& a = job.array;
   const spec::Formats& f = a.formats;
-  std::string text =
-      fmt::format("schedule {}\nnormaliser {}\nreciprocal_bits {}\nlanes {}\nbus_bits {}\n",
-                  name_of(a.schedule), name_of(a.normaliser), a.reciprocal_bits, a.lanes, a.bus_bits);
+  std::string text = fmt::format(
+      "schedule {}\noutput {}\nnormaliser {}\nreciprocal_bits {}\nlanes {}\nbus_bits {}\n",
+      name_of(a.schedule), name_of(a.output), name_of(a.normaliser), a.reciprocal_bits, a.lanes, a.bus_bits);
   text += fmt::format("weight {}\nbias {}\n", f.weight.text(), f.bias.text());
   if (a.exact_accumulator)
     text += fmt::format("# the exact accumulator is {}\naccumulator exact\n",

@@ -23,9 +23,10 @@ std::vector<std::vector<std::uint32_t>> cells_of_banks(const spec::Topology& t, 
 }
 
 // Rows of n beats accumulate in n, are normalised in as many as that takes, and pulled in the next.
-void list_beats(ClockedBank& bank, std::uint64_t normalise_cycles) {
+void list_beats(ClockedBank& bank, const spec::ArraySpec& array) {
   const auto places = [](std::size_t number) { return static_cast<std::uint32_t>(number); };
-  const std::uint64_t length = bank.beats() + normalise_cycles + spec::output_cycles;
+  const std::uint64_t normalise_cycles = spec::normalise_cycles(array);
+  const std::uint64_t length = bank.beats() + normalise_cycles + spec::output_cycles(array);
   for (std::uint64_t b = 0; b < length; ++b) {
     const auto over = static_cast<std::int64_t>(b) - static_cast<std::int64_t>(normalise_cycles);
     const auto normalised = bank.with_beats(over + 1, over + 1), pulled = bank.with_beats(over, over);
@@ -69,7 +70,7 @@ void ClockedLayout::place(std::vector<std::uint32_t> cells, const spec::ArraySpe
   rows += per_cell * bank.width;
   weights += per_cell * bank.taps * bank.width;
   inputs = std::max(inputs, bank.taps * bank.input_stride());
-  list_beats(bank, spec::normalise_cycles(array));
+  list_beats(bank, array);
   banks.push_back(std::move(bank));
 }
 

@@ -91,6 +91,7 @@ HM_WIDEST void copy_runs(const std::int32_t* __restrict links, const LinkRun* __
       const std::int32_t* from = links + run->row + k;
       std::int32_t* to = inputs + run->place + k;
       for (std::size_t l = 0; l < lane_count; ++l) to[l] = from[l];
+      if (per_cell < 2) continue;
       from += run->width;
       to += stride;
       for (std::size_t l = 0; l < lane_count; ++l) to[l] = from[l];

@@ -78,6 +78,7 @@ void Device::set_capabilities() {
   reg(HM_REG_CAP_FORMAT_STATE) = format_word(a.formats.state);
   reg(HM_REG_CAP_FORMAT_LINK) = format_word(a.formats.link);
   reg(HM_REG_CAP_FORMAT_ACCUMULATOR) = format_word(spec::accumulator_format(a, t.most_taps()));
+  reg(HM_REG_CAP_OUTPUT) = static_cast<std::uint32_t>(a.output);
 }
 
 bool Device::busy() const {

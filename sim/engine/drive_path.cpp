@@ -7,6 +7,7 @@ namespace hopmesh::engine {
 
 DrivePath::DrivePath(const Plan& plan) : plan_(plan), norm_bits_(norm_bits(plan)) {
   const spec::Rounding mode = plan.formats.drive.rounding;
+  if (plan.binary) return;
   if (plan.normaliser == spec::Normaliser::prescaled && plan.scaled_down >= 0) {
     narrow_ = true;
     to_drive_ = lane_rounding(plan.scaled_down, mode);
@@ -46,7 +47,7 @@ bool DrivePath::multiplies_row_by_row() const {
 }
 
 DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
-  if (norm == 0 || plan_.normaliser != spec::Normaliser::reciprocal) return {};
+  if (norm == 0 || plan_.binary || plan_.normaliser != spec::Normaliser::reciprocal) return {};
   const int exponent = bit_length(norm) + plan_.reciprocal_bits - 2;
   const std::int64_t r = exponent < 63
                              ? static_cast<std::int64_t>((std::uint64_t{1} << exponent) / norm)
@@ -57,6 +58,7 @@ DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
 
 void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const {
   std::copy_n(sum, lane_count, u);
+  if (plan_.binary) return sign_lanes(u, plan_.one_drive);
   if (apart_) {
     scale_lanes_apart(u, rows.multiplier, rows.places, plan_.formats.drive.rounding);
     limit_lanes(u, plan_.formats.drive);
@@ -82,6 +84,7 @@ void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* 
 }
 
 std::int64_t DrivePath::drive(const Rows& row, std::int64_t sum) const {
+  if (plan_.binary) return sum > 0 ? plan_.one_drive : sum < 0 ? -plan_.one_drive : 0;
   const spec::NumberFormat& f = plan_.formats.drive;
   const std::int64_t norm = *row.norm;
   const int up = plan_.ratio_up;

@@ -24,8 +24,8 @@ class FastCore : public Core {
     bias_.assign(neurons, 0);
     state_ = bias_;
     multiplier_.assign(neurons, 0);
-    xy_.assign(slots, 0);
-    if (per_cell_ == 3) zz_.assign(slots, 0);
+    if (per_cell_ > 1) xy_.assign(slots, 0);
+    if (per_cell_ != 2) zz_.assign(slots, 0);
     if (synchronous()) next_xy_ = xy_, next_zz_ = zz_;
     set_arguments();
   }
@@ -47,10 +47,10 @@ class FastCore : public Core {
     const std::int64_t x = code;
     const std::int64_t sum = x + r.add + (x < 0 ? r.add_if_negative : 0) + ((x >> r.places) & r.add_if_odd);
     const auto link = static_cast<std::uint32_t>(sum >> r.places) & 0xFFFFu;
-    std::uint32_t& xy = xy_[slot];
-    if (p == 0) xy = (xy & 0xFFFF0000u) | link;
-    if (p == 1) xy = (xy & 0xFFFFu) | link << 16;
-    if (p == 2) zz_[slot] = link | link << 16;
+    if (per_cell_ == 1 || p == 2)
+      zz_[slot] = link | link << 16;
+    else
+      xy_[slot] = p == 0 ? (xy_[slot] & 0xFFFF0000u) | link : (xy_[slot] & 0xFFFFu) | link << 16;
   }
   std::int32_t state(std::size_t slot, std::size_t p) const override { return state_[place(slot, p)]; }
 
@@ -72,7 +72,7 @@ class FastCore : public Core {
   }
   std::size_t bytes_per_sweep() const override {
     return 4 * weight_.size() + sizeof(Source) * at_.source.size() + 4 * at_.far_slot.size() +
-           layout_.slots() * (per_cell_ * (4 + 8 + 8) + 2 * 4 * (per_cell_ - 1));
+           layout_.slots() * (per_cell_ * (4 + 8 + 8) + 2 * 4 * std::max<std::size_t>(per_cell_ - 1, 1));
   }
   const char* name() const override { return kernels_.name; }
 
@@ -117,11 +117,10 @@ void FastCore::set_arguments() {
   args_.bias_up = -plan_.bias_down;
   args_.state_fraction = f.state.fraction_bits();
   args_.one_drive = plan_.one_drive;
-  const bool scaled = plan_.normaliser == spec::Normaliser::prescaled;
-  if (plan_.normaliser != spec::Normaliser::divider)
-    args_.drive = kernel_rounding(scaled ? plan_.scaled_down : multiplier_places(plan_), f.drive.rounding);
-  else
-    args_.division = kernel_division(plan_.ratio_up, f.drive.rounding);
+  const Normalise how = normalise_of(plan_);
+  if (how == Normalise::scale) args_.drive = kernel_rounding(plan_.scaled_down, f.drive.rounding);
+  if (how == Normalise::multiply) args_.drive = kernel_rounding(multiplier_places(plan_), f.drive.rounding);
+  if (how == Normalise::divide) args_.division = kernel_division(plan_.ratio_up, f.drive.rounding);
   args_.state = state_.data();
   args_.state_rounding = kernel_rounding(f.drive.fraction_bits(), f.state.rounding);
   args_.link = kernel_rounding(plan_.link_down, f.link.rounding);
@@ -150,7 +149,8 @@ void FastCore::invert(std::size_t at, std::uint64_t norm) {
 }
 
 void FastCore::prepare(std::size_t first, std::size_t last) {
-  const RowKernel rows = kernels_.rows[per_cell_ - 2];
+  const RowKernel rows = kernels_.rows[per_cell_ - 1];
+  const bool normalises = !plan_.binary && plan_.normaliser != spec::Normaliser::prescaled;
   std::vector<std::uint32_t> sums(per_cell_ * L);
   std::uint32_t largest = 0;
   for (std::size_t b = first; b < last; ++b) {
@@ -158,7 +158,7 @@ void FastCore::prepare(std::size_t first, std::size_t last) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
       const std::size_t at = b * per_cell_ * L + k;
       largest = std::max(largest, sums[k]);
-      if (plan_.normaliser == spec::Normaliser::prescaled) continue;
+      if (!normalises) continue;
       const std::int64_t bias = bias_[at];
       invert(at, (std::uint64_t{sums[k]} << plan_.weight_up) +
                      (static_cast<std::uint64_t>(bias < 0 ? -bias : bias) << plan_.bias_up));
@@ -173,7 +173,7 @@ void FastCore::prepare(std::size_t first, std::size_t last) {
 void FastCore::begin_run() {
   const bool wide = std::uint64_t{largest_row_} * static_cast<std::uint64_t>(plan_.one_link) > INT32_MAX;
   const bool plain = args_.drive.plain() && args_.state_rounding.plain() && args_.link.plain();
-  fire_ = kernels_.fire[per_cell_ - 2][static_cast<std::size_t>(normalise_of(plan_))][plain][wide];
+  fire_ = kernels_.fire[per_cell_ - 1][static_cast<std::size_t>(normalise_of(plan_))][plain][wide];
   largest_row_ = 0;
 }
 

@@ -7,6 +7,7 @@ namespace hopmesh::engine {
 namespace {
 
 constexpr std::size_t L = block_lanes;
+constexpr std::uint32_t nobody = UINT32_MAX;
 
 } // namespace
 
@@ -53,7 +54,7 @@ void FastLayout::align_neighbours() {
 void FastLayout::lay_out_weights() {
   first_weight.assign(1, 0);
   for (std::uint32_t& even : neighbours) {
-    if (per_cell_ == 3) even += even % 2;
+    if (per_cell_ != 2) even += even % 2;
     first_weight.push_back(first_weight.back() + per_cell_ * pairs(even) * L);
     if (tap_place.size() <= even) tap_place.resize(even + 1);
     auto& place = tap_place[even];
@@ -61,19 +62,27 @@ void FastLayout::lay_out_weights() {
     const auto code = [&](std::size_t pair, std::size_t half) {
       return static_cast<std::uint32_t>(2 * L * per_cell_ * pair + half);
     };
-    const bool with_z = per_cell_ == 3;
     for (std::size_t q = 0; q < per_cell_; ++q)
       place.push_back(q < 2 ? code(pairs(even) - 1, q) : code(pairs(even) - 2, 0));
     for (std::size_t k = 0; k < even; ++k)
       for (std::size_t q = 0; q < per_cell_; ++q)
-        place.push_back(q == 2 ? code(k / 2 * 3 + 2, k % 2) : code(with_z ? k / 2 * 3 + k % 2 : k, q));
+        if (per_cell_ == 1)
+          place.push_back(code(k / 2, k % 2));
+        else if (per_cell_ == 2)
+          place.push_back(code(k, q));
+        else
+          place.push_back(q == 2 ? code(k / 2 * 3 + 2, k % 2) : code(k / 2 * 3 + k % 2, q));
   }
 }
 
 void FastLayout::find_sources() {
   first_source.assign(1, 0);
   for (std::size_t b = 0; b < neighbours.size(); ++b) {
-    for (std::size_t k = 0; k < neighbours[b]; ++k) add_source(b, k);
+    std::vector<std::uint32_t> slots(neighbours[b] * L, nobody); // [column][lane]
+    for (std::size_t slot = b * L; slot < (b + 1) * L; ++slot)
+      for (std::size_t k = 0; k < degree(slot); ++k)
+        slots[column[first_column[slot] + k] * L + slot % L] = neighbour(slot, k);
+    for (std::size_t at = 0; at < slots.size(); at += L) add_source(b, &slots[at]);
     waits.push_back(reads_the_two_before(b));
     first_source.push_back(static_cast<std::uint32_t>(source.size()));
   }
@@ -81,18 +90,12 @@ void FastLayout::find_sources() {
 
 // A lane without this neighbour has weight 0 and may read anything that is there, even a word that another
 // thread is writing.
-void FastLayout::add_source(std::size_t block, std::size_t at) {
-  std::uint32_t slots[L];
-  bool real[L] = {};
+void FastLayout::add_source(std::size_t block, const std::uint32_t* slots) {
   std::uint32_t low = UINT32_MAX, high = 0;
   std::size_t first_real = L;
   bool together = true;
   for (std::size_t l = 0; l < L; ++l) {
-    slots[l] = static_cast<std::uint32_t>(block * L + l);
-    for (std::size_t k = 0; k < degree(block * L + l); ++k)
-      if (column[first_column[block * L + l] + k] == at)
-        slots[l] = neighbour(block * L + l, k), real[l] = true;
-    if (!real[l]) continue;
+    if (slots[l] == nobody) continue;
     if (first_real == L) first_real = l;
     low = std::min(low, slots[l]), high = std::max(high, slots[l]);
     together = together && slots[l] >= l && slots[l] - l == slots[first_real] - first_real;
@@ -105,11 +108,12 @@ void FastLayout::add_source(std::size_t block, std::size_t at) {
     const std::uint32_t line = low / L * L; // a load that straddles cache lines costs two
     s.base = high - line < 2 * L ? line : low;
     for (std::size_t l = 0; l < L; ++l)
-      s.lane[l] = static_cast<std::uint8_t>(real[l] ? slots[l] - s.base : 0);
+      s.lane[l] = static_cast<std::uint8_t>(slots[l] != nobody ? slots[l] - s.base : 0);
   } else if (first_real < L) {
     s.kind = Source::far;
     s.base = static_cast<std::uint32_t>(far_slot.size());
-    far_slot.insert(far_slot.end(), slots, slots + L);
+    for (std::size_t l = 0; l < L; ++l)
+      far_slot.push_back(slots[l] != nobody ? slots[l] : static_cast<std::uint32_t>(block * L + l));
   }
   source.push_back(s);
 }

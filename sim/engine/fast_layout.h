@@ -38,14 +38,16 @@ class FastLayout {
   std::vector<std::uint8_t> waits; ///< [blocks] does it read what the two blocks before it write?
 
  private:
-  std::size_t pairs(std::size_t n) const { return per_cell_ == 3 ? 2 + n + n / 2 : 1 + n; }
+  std::size_t pairs(std::size_t n) const {
+    return per_cell_ == 3 ? 2 + n + n / 2 : per_cell_ == 2 ? 1 + n : 1 + n / 2;
+  }
   std::uint32_t degree(std::size_t slot) const { return layout_.degree[slot]; }
   std::uint32_t neighbour(std::size_t slot, std::size_t k) const;
   std::int64_t way(std::size_t slot, std::size_t k) const;
   void align_neighbours();
   void lay_out_weights();
   void find_sources();
-  void add_source(std::size_t block, std::size_t at);
+  void add_source(std::size_t block, const std::uint32_t* slots);
   bool reads_the_two_before(std::size_t block) const;
 
   const Layout& layout_;

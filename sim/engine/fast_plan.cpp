@@ -15,9 +15,10 @@ int norm_bits(const Plan& plan) {
 }
 
 Normalise normalise_of(const Plan& plan) {
-  return plan.normaliser == spec::Normaliser::reciprocal ? Normalise::multiply
-         : plan.normaliser == spec::Normaliser::divider  ? Normalise::divide
-                                                         : Normalise::scale;
+  return plan.binary                                       ? Normalise::sign
+         : plan.normaliser == spec::Normaliser::reciprocal ? Normalise::multiply
+         : plan.normaliser == spec::Normaliser::divider    ? Normalise::divide
+                                                           : Normalise::scale;
 }
 
 int multiplier_places(const Plan& plan) {
@@ -27,6 +28,7 @@ int multiplier_places(const Plan& plan) {
 namespace {
 
 std::string why_no_normaliser(const Plan& plan) {
+  if (plan.binary) return "";
   const int row = norm_bits(plan), sum = plan.formats.accumulator.width;
   if (plan.normaliser == spec::Normaliser::reciprocal) {
     const int above = plan.formats.drive.fraction_bits() - plan.ratio_up; // from N's last place to s's

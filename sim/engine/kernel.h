@@ -32,7 +32,7 @@ struct KernelDivision {
 };
 
 struct KernelArgs {
-  const std::uint32_t* neighbours;   ///< of a block; even where a cell has three neurons
+  const std::uint32_t* neighbours;   ///< of a block; even where a cell has one neuron or three
   const std::size_t* first_weight;   ///< of a block, in `weight`
   const std::uint32_t* first_source; ///< of a block, in `source`
   const Source* source;
@@ -41,11 +41,12 @@ struct KernelArgs {
   /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
   /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own
   /// x and y. Two: x and y of each neighbour, then own. Each pair first for neuron 0, then for 1, then for 2.
+  /// One: x of one neighbour, x of the next, and so on; then own x beside a zero.
   const std::uint32_t* weight;
   const std::int32_t* bias;       ///< [block][p][lane], and so all below
   const std::int64_t* multiplier; ///< reciprocal, all with one point; or 1 / N as a double's bits
   std::int32_t* state;
-  /// Links by slot: x and y in one word; z in both halves of another.
+  /// Links by slot: x and y in one word; z in both halves of another, or x where it is alone.
   const std::uint32_t *xy, *zz;
   std::uint32_t *next_xy, *next_zz; ///< the same, but in synchronous arrays
   bool synchronous;
@@ -66,13 +67,13 @@ using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size
 /// Sum of |weight| of every row of a block: [p][lane].
 using RowKernel = void (*)(const KernelArgs& args, std::size_t block, std::uint32_t* sums);
 
-enum class Normalise : std::uint8_t { multiply, scale, divide };
+enum class Normalise : std::uint8_t { multiply, scale, divide, sign };
 
-/// All kernels of one instruction set: [neurons a cell - 2][Normalise][plain rounding][wide sums].
+/// All kernels of one instruction set: [neurons a cell - 1][Normalise][plain rounding][wide sums].
 struct KernelSet {
   const char* name;
-  FireKernel fire[2][3][2][2];
-  RowKernel rows[2];
+  FireKernel fire[3][4][2][2];
+  RowKernel rows[3];
 };
 
 extern const KernelSet portable_kernels;

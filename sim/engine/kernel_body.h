@@ -29,7 +29,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
 
     void add(Words links) {
       x.add(links, w);
-      y.add(links, w + 16);
+      if constexpr (P > 1) y.add(links, w + 16);
       if constexpr (P == 3) z.add(links, w + 32);
       w += 16 * P;
     }
@@ -42,14 +42,14 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
       x = y = z = {};
       const Source* source = a.source + a.first_source[block];
       const Source* const end = source + a.neighbours[block];
-      for (; source != end; source += P == 3 ? 2 : 1) {
-        add(fetch(a.xy, source[0], a.far_slot));
-        if constexpr (P == 3) {
-          add(fetch(a.xy, source[1], a.far_slot));
+      for (; source != end; source += P == 2 ? 1 : 2) {
+        if constexpr (P > 1) add(fetch(a.xy, source[0], a.far_slot));
+        if constexpr (P == 3) add(fetch(a.xy, source[1], a.far_slot));
+        if constexpr (P != 2)
           add(Isa::halves(fetch(a.zz, source[0], a.far_slot), fetch(a.zz, source[1], a.far_slot)));
-        }
       }
-      if constexpr (P == 3) add(Isa::load_words(a.zz + slot));
+      if constexpr (P != 2) add(Isa::load_words(a.zz + slot));
+      if constexpr (P == 1) return;
       xy = Isa::load_words(a.xy + slot);
       x.add(xy, w);
       if (!a.synchronous) return;
@@ -58,12 +58,26 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     }
   };
 
+  // Cells of one neuron: nothing in a block waits, and the processor looks from one block into the next.
+  template <Normalise how, bool plain, bool wide>
+  static void fire_single(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
+    Stage c(a, swings);
+    Block<1, wide> at;
+    for (std::size_t block = first; block < last; ++block) {
+      at.load(a, block);
+      const Words link = KernelStage<Isa>::template publish<how, plain>(at.x, at.slot, c);
+      Isa::store_words(a.next_zz + at.slot, Isa::halves(link, Isa::up_16(link)));
+    }
+    c.swings(swings);
+  }
+
   // A cell's neurons wait for each other, a group's cells do not. So the z of one block fires beside the y of
   // the next, the x of the one after and the sums of a fourth: four short chains at a time instead of one
   // long one, which the processor could not look past. A block that reads what is still on its way waits for
   // it.
   template <int P, Normalise how, bool plain, bool wide>
   static void fire(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
+    if constexpr (P == 1) return fire_single<how, plain, wide>(a, first, last, swings);
     Stage c(a, swings);
     Block<P, wide> summed, with_x, with_y;
     for (std::size_t block = first; true;) {
@@ -117,15 +131,19 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
         {Kernel<Isa>::template fire<P, how, true, false>, Kernel<Isa>::template fire<P, how, true, true>},   \
   }
 
+#define HM_CELLS(P)                                                                                          \
+  {                                                                                                          \
+    HM_KERNELS(P, Normalise::multiply), HM_KERNELS(P, Normalise::scale), HM_KERNELS(P, Normalise::divide),   \
+        HM_KERNELS(P, Normalise::sign)                                                                       \
+  }
+
 template <typename Isa> constexpr KernelSet kernels_of(const char* name) {
   return {name,
-          {{HM_KERNELS(2, Normalise::multiply), HM_KERNELS(2, Normalise::scale),
-            HM_KERNELS(2, Normalise::divide)},
-           {HM_KERNELS(3, Normalise::multiply), HM_KERNELS(3, Normalise::scale),
-            HM_KERNELS(3, Normalise::divide)}},
-          {Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
+          {HM_CELLS(1), HM_CELLS(2), HM_CELLS(3)},
+          {Kernel<Isa>::template rows<1>, Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
 }
 
+#undef HM_CELLS
 #undef HM_KERNELS
 
 } // namespace

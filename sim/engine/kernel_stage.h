@@ -92,6 +92,8 @@ template <typename Isa> struct KernelStage {
   template <Normalise how, bool plain>
   static Longs drive_of(Longs s, const std::int64_t* multiplier, const Stage& c) {
     if constexpr (how == Normalise::divide) return divided(s, multiplier, c);
+    if constexpr (how == Normalise::sign) // drive_fraction places are those of Delta V behind the state's
+      return Isa::shift_up(Isa::min(Isa::max(s, Isa::all(-1)), Isa::all(1)), c.state.places);
     if constexpr (how == Normalise::multiply)
       return rounded<plain>(Isa::multiply(s, Isa::load(multiplier)), c.drive);
     return Isa::min(Isa::max(rounded<plain>(s, c.drive), c.minus_one), c.one);

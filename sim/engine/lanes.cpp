@@ -231,6 +231,10 @@ HM_WIDEST void divide_lanes(std::int64_t* __restrict x, int up, const std::int64
   }
 }
 
+HM_WIDEST void sign_lanes(std::int64_t* __restrict x, std::int64_t one) {
+  for (std::size_t l = 0; l < lane_count; ++l) x[l] = x[l] < 0 ? -one : x[l] > 0 ? one : 0;
+}
+
 HM_WIDEST void clamp_lanes(std::int64_t* __restrict x, std::int64_t bound) {
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = x[l] < -bound ? -bound : x[l] > bound ? bound : x[l];
 }

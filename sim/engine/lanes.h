@@ -44,6 +44,8 @@ void scale_lanes_apart(std::int64_t* x, const std::int64_t* factor, const int* p
 void round_lanes(std::int64_t* x, const LaneRounding& rounding);
 /// Each code brought into the format's range.
 void limit_lanes(std::int64_t* x, const spec::NumberFormat& format);
+/// x <- one, 0 or -one, by its sign.
+void sign_lanes(std::int64_t* x, std::int64_t one);
 void clamp_lanes(std::int64_t* x, std::int64_t bound);
 void swing_lanes(const std::int64_t* x, LaneSwings& swings);
 /// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.

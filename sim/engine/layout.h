@@ -15,13 +15,13 @@ inline constexpr std::uint32_t no_cell = UINT32_MAX;
 ///   synchronous  one group; links then lead within it, and a sweep reads what was there before it
 /// Blocks lie chunk after chunk, and in a chunk group after group. A chunk is a run of cell numbers so long
 /// that no link reaches beyond the next chunk: what allows several sweeps to follow each other through the
-/// mesh.
+/// mesh. Within a group of a chunk cells lie by number, or by number of neighbours where that saves much.
 struct Layout {
   /// `chunk_cells`: wanted length of a chunk; 0: one chunk. Longer if links ask for it.
   Layout(const spec::Topology& topology, const spec::Phases& phases, spec::Schedule schedule,
          std::size_t chunk_cells = 0);
 
-  /// Whether a link leads from a cell of one group to one of the other in another chunk.
+  /// Whether a link leads from a cell of one group to one of the other in another chunk; chunks > 1.
   bool groups_meet_across_chunks(std::size_t one, std::size_t other) const {
     return across_[one * groups + other];
   }
@@ -40,7 +40,8 @@ struct Layout {
   std::size_t slots() const { return blocks() * block_lanes; }
 
  private:
-  void place(const std::vector<std::uint32_t>& group, std::size_t chunk_cells);
+  void place(const spec::Topology& topology, const std::vector<std::uint32_t>& group,
+             std::size_t chunk_cells);
   void find_sources(const spec::Topology& topology);
 
   std::vector<bool> across_; ///< [groups][groups]

@@ -5,7 +5,8 @@ namespace hopmesh::engine {
 Plan::Plan(const spec::ArraySpec& array, const spec::Topology& topology)
     : formats(array.formats), schedule(array.schedule), normaliser(array.normaliser), lanes(array.lanes),
       reciprocal_bits(array.reciprocal_bits), neurons_per_cell(topology.neurons_per_cell),
-      exact(array.exact_accumulator), most_taps(topology.most_taps()) {
+      exact(array.exact_accumulator), binary(array.output == spec::Output::binary),
+      most_taps(topology.most_taps()) {
   formats.accumulator = spec::accumulator_format(array, most_taps);
   const int weight = formats.weight.fraction_bits(), bias = formats.bias.fraction_bits();
   const int product = weight + formats.link.fraction_bits(), finest = std::max(product, bias);

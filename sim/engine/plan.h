@@ -13,7 +13,8 @@ struct Plan {
   spec::Schedule schedule;
   spec::Normaliser normaliser;
   int lanes, reciprocal_bits, neurons_per_cell;
-  bool exact; ///< the accumulator loses nothing
+  bool exact;  ///< the accumulator loses nothing
+  bool binary; ///< u is the sign of s, and nothing is normalised
   std::size_t most_taps;
 
   // A row's sum is formed in the finest last place of products and bias, then written into s.

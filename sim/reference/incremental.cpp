@@ -77,7 +77,8 @@ class Relaxing {
     const std::uint32_t before = step.relaxation.sweeps;
     step.V0 = step.relaxation.V;
     step.network = network(mesh_, increment_, step.scale, step.V0);
-    step.relaxation = relax(step.network, order_, step.V0, motion_.threshold, motion_.max_sweeps);
+    step.relaxation =
+        relax(step.network, order_, step.V0, motion_.threshold, motion_.max_sweeps, motion_.output);
     step.relaxation.sweeps += before;
   }
 

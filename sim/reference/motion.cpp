@@ -141,7 +141,7 @@ Step advance_probe(const scene::Mesh& mesh, const Motion& motion, const Order& o
     const std::uint32_t sweeps_before = step.relaxation.sweeps;
     step.V0 = step.relaxation.V;
     step.network = network(mesh, motion, step.predicted, step.V0);
-    step.relaxation = relax(step.network, order, step.V0, motion.threshold, motion.max_sweeps);
+    step.relaxation = relax(step.network, order, step.V0, motion.threshold, motion.max_sweeps, motion.output);
     step.relaxation.sweeps += sweeps_before;
   }
   move(mesh, motion, step, state);

@@ -36,11 +36,16 @@ double fire(double s, double N, double V) {
   return V + R * u;
 }
 
+// The binary neuron (paper eq. 3).
+double sign(double s, double V) {
+  return s > 0 ? 1 : s < 0 ? -1 : V;
+}
+
 /// One network, ready to sweep: everything a sweep needs is allocated here.
 class Sweeper {
  public:
-  Sweeper(const Network& network, const Order& order, Vector& V)
-      : network_(network), order_(order), V_(V), N_(normalisers(network)), next_(V.size()) {}
+  Sweeper(const Network& network, const Order& order, Vector& V, Output output)
+      : network_(network), order_(order), V_(V), N_(normalisers(network)), next_(V.size()), output_(output) {}
 
   /// Fires every neuron of the order once; the largest |dV|.
   double sweep() {
@@ -52,8 +57,10 @@ class Sweeper {
  private:
   // All read the outputs from before the phase, so none is written until all have read.
   double fire_together(const std::vector<std::uint32_t>& phase) {
-    for (const std::uint32_t neuron : phase)
-      next_[neuron] = fire(input_sum(network_, V_, neuron), N_[neuron], V_[neuron]);
+    for (const std::uint32_t neuron : phase) {
+      const double s = input_sum(network_, V_, neuron);
+      next_[neuron] = output_ == Output::binary ? sign(s, V_[neuron]) : fire(s, N_[neuron], V_[neuron]);
+    }
     double largest = 0;
     for (const std::uint32_t neuron : phase) {
       largest = std::max(largest, std::abs(next_[neuron] - V_[neuron]));
@@ -66,14 +73,15 @@ class Sweeper {
   const Order& order_;
   Vector& V_;
   Vector N_, next_;
+  const Output output_;
 };
 
 } // namespace
 
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps) {
+                 std::uint32_t max_sweeps, Output output) {
   Relaxation result;
-  Sweeper sweeper(network, order, V);
+  Sweeper sweeper(network, order, V, output);
   while (result.sweeps < max_sweeps && !result.converged) {
     result.converged = sweeper.sweep() <= threshold;
     ++result.sweeps;

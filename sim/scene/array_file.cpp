@@ -83,6 +83,7 @@ void read_integer(const TomlSource& source, KeyReader& keys, const std::string& 
 
 void read_array_table(const TomlSource& source, KeyReader& keys, spec::ArraySpec& a) {
   read_mode(keys, "array.schedule", a.schedule, spec::schedule_names);
+  read_mode(keys, "array.output", a.output, spec::output_names);
   read_mode(keys, "array.normaliser", a.normaliser, spec::normaliser_names);
   read_integer(source, keys, "array.lanes", a.lanes);
   read_integer(source, keys, "array.reciprocal_bits", a.reciprocal_bits);

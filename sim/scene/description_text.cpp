@@ -98,12 +98,13 @@ std::string array_text(const spec::ArraySpec& a) {
   const spec::Formats& f = a.formats;
   const std::string accumulator = a.exact_accumulator ? "exact" : f.accumulator.text();
   return fmt::format(
-      "name = {}\n\n[array]\nschedule = \"{}\"\nlanes = {}\nnormaliser = \"{}\"\nreciprocal_bits = {}\n"
-      "bus_bits = {}\nclock_mhz = {}\n\n[formats]\nweight = \"{}\"\nbias = \"{}\"\naccumulator = \"{}\"\n"
+      "name = {}\n\n[array]\nschedule = \"{}\"\nlanes = {}\noutput = \"{}\"\nnormaliser = \"{}\"\n"
+      "reciprocal_bits = {}\nbus_bits = {}\nclock_mhz = {}\n\n[formats]\nweight = \"{}\"\nbias = "
+      "\"{}\"\naccumulator = \"{}\"\n"
       "drive = \"{}\"\nstate = \"{}\"\nlink = \"{}\"\n",
-      string(a.name), name_of(a.schedule), a.lanes, name_of(a.normaliser), a.reciprocal_bits, a.bus_bits,
-      number(a.clock_mhz), f.weight.text(), f.bias.text(), accumulator, f.drive.text(), f.state.text(),
-      f.link.text());
+      string(a.name), name_of(a.schedule), a.lanes, name_of(a.output), name_of(a.normaliser),
+      a.reciprocal_bits, a.bus_bits, number(a.clock_mhz), f.weight.text(), f.bias.text(), accumulator,
+      f.drive.text(), f.state.text(), f.link.text());
 }
 
 } // namespace hopmesh::scene

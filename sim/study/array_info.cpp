@@ -16,6 +16,12 @@ std::string grouped(std::uint64_t number) {
 
 namespace {
 
+std::string normaliser_text(const spec::ArraySpec& array) {
+  if (array.output == spec::Output::binary) return "none: only the sign of s counts";
+  const std::string name(name_of(array.normaliser));
+  return spec::has_reciprocal(array) ? fmt::format("{}, {} bits", name, array.reciprocal_bits) : name;
+}
+
 FigureTable shape(const BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
   const spec::Topology& t = mesh.topology();
   std::vector<record::Figure> rows{
@@ -26,16 +32,14 @@ FigureTable shape(const BuiltMesh& mesh, const spec::ArraySpec& array, const spe
       {"links between cells", grouped(t.links())},
       {"inputs of a neuron", fmt::format("at most {}", t.most_taps())},
       {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
-      {"normaliser",
-       std::string(name_of(array.normaliser)) + (array.normaliser == spec::Normaliser::reciprocal
-                                                     ? fmt::format(", {} bits", array.reciprocal_bits)
-                                                     : "")},
+      {"output stage", std::string(name_of(array.output))},
+      {"normaliser", normaliser_text(array)},
       {"schedule", fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
       {"host bus", fmt::format("{} bits", array.bus_bits)},
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };
   if (array.schedule == spec::Schedule::coloured)
-    rows[8].value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
+    rows[9].value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
   return {"Array", rows};
 }
 
@@ -60,7 +64,7 @@ FigureTable cycles(const BuiltMesh& mesh, const spec::ArraySpec& array, const sp
   return {"Cycles",
           {{"longest phase", fmt::format("{} = {} accumulate + {} normalise + {} output", longest,
                                          spec::accumulate_cycles(array, t.most_taps()),
-                                         spec::normalise_cycles(array), spec::output_cycles)},
+                                         spec::normalise_cycles(array), spec::output_cycles(array))},
            {"sweep", grouped(m.sweep)},
            {"prepare, once a run", grouped(m.prepare)},
            {"run of n sweeps", fmt::format("{} + {} n", grouped(1 + m.prepare), grouped(m.sweep))},

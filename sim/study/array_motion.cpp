@@ -55,7 +55,7 @@ ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const
                          ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
       memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
-  if (check) check_.emplace(scene, mesh, array.schedule);
+  if (check) check_.emplace(scene, mesh, array);
 }
 
 // The array is looked at with the first step, when every port of the process has been made.

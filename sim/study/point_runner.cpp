@@ -45,10 +45,10 @@ std::vector<Maybe> distances(const std::vector<Positions>& ours, const std::vect
   return all;
 }
 
-// A multiplication an input, one for R u, and one by the reciprocal where there is one.
+// A multiplication an input, one for R u (none for a sign), and one by the reciprocal where there is one.
 std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topology& t) {
   std::uint64_t count = 0;
-  const std::uint64_t more = 1 + (array.normaliser == spec::Normaliser::reciprocal);
+  const std::uint64_t more = (array.output == spec::Output::modified) + spec::has_reciprocal(array);
   for (std::size_t c = 0; c < t.cells(); ++c) count += t.neurons_per_cell * (t.taps(c) + more);
   return count;
 }
@@ -71,7 +71,7 @@ void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMes
 void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const std::vector<double>& times,
                        const Snapshots& ours, const Positions& last, const std::atomic<bool>& stop,
                        PointRow& row) {
-  ReferenceMotion motion(inputs.scene, mesh, inputs.array.schedule);
+  ReferenceMotion motion(inputs.scene, mesh, inputs.array);
   Snapshots theirs(times, inputs.scene.motion.time_step);
   const RunResult result = simulate(motion, row.steps, {&theirs}, stop);
   if (result.rows.size() == row.steps) row.position_error = rms_distance(last, motion.positions());

@@ -17,8 +17,14 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
   return order;
 }
 
-ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule)
-    : mesh_(mesh), motion_(reference::motion_of(scene)), order_(order_for(mesh, schedule)),
+reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
+  reference::Motion motion = reference::motion_of(scene);
+  if (array.output == spec::Output::binary) motion.output = reference::Output::binary;
+  return motion;
+}
+
+ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array)
+    : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh())) {}
 
 void ReferenceCheck::begin(const StepState& state) {
@@ -52,7 +58,8 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
                                      double scale) const {
   Vector V0;
   const reference::Network network = expanded(start, scale, V0);
-  const Vector wanted = reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps).V;
+  const Vector wanted =
+      reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps, motion_.output).V;
   const std::size_t neurons = start.size();
   const Vector V = by_node(std::vector<double>(built.output, built.output + neurons));
   ReferenceError error;

@@ -8,10 +8,12 @@ namespace hopmesh::study {
 
 /// The order in which an array's schedule fires, with the reference's numbering (over all nodes).
 reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
+/// A scene's motion as the output stage of an array makes it.
+reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
 
 class ReferenceCheck {
  public:
-  ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule);
+  ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
 
   /// Before a step: where it starts from, outputs cell by cell.
   void begin(const StepState& state);

@@ -4,8 +4,9 @@
 
 namespace hopmesh::study {
 
-ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule)
-    : mesh_(mesh), motion_(reference::motion_of(scene)), order_(order_for(mesh, schedule)),
+ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh,
+                                 const spec::ArraySpec& array)
+    : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh(), motion_.rule)),
       position_(state_.position.data(), state_.position.data() + state_.position.size()) {}
 

@@ -8,8 +8,8 @@ namespace hopmesh::study {
 
 class ReferenceMotion : public Motion {
  public:
-  /// Fires in the order of `schedule`, so that its sweeps are comparable with an array's.
-  ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule);
+  /// Fires in the order of the array, and as its output stage does: its sweeps are comparable.
+  ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return position_; }

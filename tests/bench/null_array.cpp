@@ -69,6 +69,8 @@ std::uint32_t NullArray::read_register(std::uint32_t offset) {
     return static_cast<std::uint32_t>(topology_.link_to.size());
   case HM_REG_CAP_NORMALISER:
     return static_cast<std::uint32_t>(array_.normaliser);
+  case HM_REG_CAP_OUTPUT:
+    return static_cast<std::uint32_t>(array_.output);
   case HM_REG_CAP_FORMAT_WEIGHT:
     return packed(array_.formats.weight);
   case HM_REG_CAP_FORMAT_BIAS:

@@ -1,4 +1,5 @@
-// docs/scene.md, array.md and results.md against the program: keys, defaults, presets, files, columns, flags.
+// docs/scene.md, array.md, results.md and networks.md against the program: keys, defaults, presets, files,
+// columns, flags.
 #include "tests/cli/cli_test.h"
 
 #include <regex>
@@ -142,6 +143,38 @@ TEST_F(CliDocs, ExamplesOfScenesAndArraysAreGood) {
   write_text(at("s.toml"), scene[1]);
   write_text(at("a.toml"), array[1]);
   EXPECT_EQ(fault_of_results(results_of("s.toml --array a.toml --steps 3", "r"), 3), "");
+}
+
+// In order, in one folder, as a reader types them; "exit 1" in a comment says that it ends so.
+TEST_F(CliDocs, CommandsOfTheNetworksPageRun) {
+  static const std::regex command("    hopmesh ([^#]*[^# ]) *(#.*)?");
+  int tried = 0;
+  for (const std::string& line : lines_of(page("networks.md"))) {
+    std::smatch part;
+    if (!std::regex_match(line, part, command)) continue;
+    const bool refuses = part[2].str().find("exit 1") != std::string::npos;
+    const Finished f = hopmesh(part[1]);
+    EXPECT_EQ(f.exit_code, refuses ? 1 : 0) << line << f.err;
+    EXPECT_EQ(f.out.find("limit cycle of 2") != std::string::npos, refuses) << line;
+    ++tried;
+  }
+  EXPECT_GT(tried, 5);
+}
+
+TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
+  good("solve cut-16 --out o");
+  const std::string text = page("networks.md");
+  for (const std::string& name : names_in(at("o"))) EXPECT_THAT(text, HasSubstr('`' + name + '`'));
+  for (const std::string& name : read_table(at("o/solve.csv")).header)
+    EXPECT_THAT(text, HasSubstr('`' + name + '`'));
+  for (const std::string& line : lines_of(good("problem").out))
+    EXPECT_THAT(text, HasSubstr('`' + split(line, ' ')[0] + '`'));
+  static const std::regex flag("(--[a-z]+)");
+  const std::string help = good("solve --help").out;
+  for (std::sregex_iterator at(help.begin(), help.end(), flag), end; at != end; ++at) {
+    if ((*at)[1] == "--help") continue;
+    EXPECT_THAT(text, HasSubstr((*at)[1].str()));
+  }
 }
 
 TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {

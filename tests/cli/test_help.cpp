@@ -28,8 +28,8 @@ class CliHelp : public Cli {
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb :
-       {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart", "stability"})
+  for (const char* verb : {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart",
+                           "stability", "solve", "problem"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -69,6 +69,15 @@ TEST_F(CliHelp, OfStudiesTellsEveryFlag) {
       EXPECT_THAT(help, HasSubstr(flag));
   }
   for (const char* flag : {"DIR", "--x", "--y"}) EXPECT_THAT(good("chart --help").out, HasSubstr(flag));
+}
+
+TEST_F(CliHelp, OfNetworksTellsEveryFlag) {
+  const std::string help = good("solve --help").out;
+  for (const char* flag : {"BIAS", "--start", "--rule", "--asymmetric", "--level", "--array", "--set",
+                           "--sweeps", "--threshold", "--seed", "--out"})
+    EXPECT_THAT(help, HasSubstr(flag));
+  for (const char* flag : {"NAME", "--seed", "--out"})
+    EXPECT_THAT(good("problem --help").out, HasSubstr(flag));
 }
 
 TEST_F(CliHelp, VersionNamesVersionCommitAndCompiler) {

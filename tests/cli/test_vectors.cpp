@@ -42,6 +42,9 @@ TEST_F(CliVectors, AnotherCoreFillsInRandomCasesAndIsRight) {
   good("vectors --random 300 --seed 1000 --blank --out b.txt");
   fill_in("b.txt", "f.txt");
   EXPECT_THAT(good("vectors --check f.txt").out, HasSubstr("f.txt: 300 cases, "));
+  const std::string text = content_of(at("b.txt"));
+  for (const char* line : {"\noutput binary\n", "\noutput modified\n", "\nneurons_per_cell 1\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 
 TEST_F(CliVectors, AnotherCoreFillsInAStepOfAFlagOnEveryPreset) {
@@ -171,13 +174,14 @@ TEST_P(CliVectorsFile, IsRefusedByNameAndLine) {
 }
 
 const std::vector<Corruption> corruptions{
-    {"Header", "hopmesh-vectors", "hopmesh-vectors 2",
-     "found \"hopmesh-vectors 2\", expected hopmesh-vectors 1"},
-    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 1"},
+    {"Header", "hopmesh-vectors", "hopmesh-vectors 1",
+     "found \"hopmesh-vectors 1\", expected hopmesh-vectors 2"},
+    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 2"},
     {"Case", "case ", "csae one", "expected case NAME (did you mean case?)"},
     {"CaseWithoutName", "case ", "case", "expected case NAME"},
     {"Schedule", "schedule ", "schedule colored",
      "coloured or sequential or synchronous (did you mean coloured?)"},
+    {"Output", "output ", "output modfied", "output modified or binary (did you mean modified?)"},
     {"Order", "lanes ", "bus_bits 32", "found \"bus_bits 32\", expected lanes N"},
     {"Lanes", "lanes ", "lanes 0", "lanes: found 0, expected 1 to 64"},
     {"LanesReal", "lanes ", "lanes 1.5", "found \"1.5\", expected lanes, an integer"},
@@ -188,7 +192,7 @@ const std::vector<Corruption> corruptions{
     {"Accumulator", "accumulator ", "accumulator wide", "accumulator exact, or accumulator FORMAT"},
     {"Cells", "cells ", "cells 0", "found \"0\", expected cells, an integer from 1 to"},
     {"CellsHuge", "cells ", "cells 99999999999", "expected cells, an integer from 1 to"},
-    {"Neurons", "neurons_per_cell", "neurons_per_cell 4", "an integer from 2 to 3"},
+    {"Neurons", "neurons_per_cell", "neurons_per_cell 4", "an integer from 1 to 3"},
     {"LinkBeyond", "links 0", "links 0 9999", "a neighbour in ascending order"},
     {"LinkToItself", "links 0", "links 0 0", "expected another cell"},
     {"LinkNumber", "links 1", "links 7", "expected links 1 and its neighbours"},
@@ -230,7 +234,7 @@ TEST_F(CliVectors, ABlankCaseIsNoAnswer) {
 
 TEST_F(CliVectors, FilesThatAreNone) {
   write_text(at("empty.txt"), "");
-  write_text(at("head.txt"), "hopmesh-vectors 1\n# nothing\n");
+  write_text(at("head.txt"), "hopmesh-vectors 2\n# nothing\n");
   write_text(at("binary.txt"), std::string("\x7f\x45\x4c\x46\0\1\2", 7));
   std::filesystem::create_directory(at("folder"));
   for (const auto& [name, says] :

@@ -117,6 +117,92 @@ TEST(CosimDescent, EnergyNeverRisesInAnySweep) {
   EXPECT_GT(falls, 10 * jobs / 2); // it is not that nothing moves
 }
 
+/// Binary outputs, w_ii >= 0 everywhere, starts anywhere in the box.
+ArrayJob binary_job(std::uint64_t seed) {
+  ArrayJob job = descending_job(seed);
+  job.array.output = spec::Output::binary;
+  const auto n = static_cast<std::size_t>(job.topology.neurons_per_cell);
+  for (std::size_t i = 0; i < job.topology.neurons(); ++i) {
+    std::int32_t& own = job.weight[weight_word(job.topology, i / n, i % n, i / n, i % n)];
+    own = std::min(std::abs(own), 32767);
+  }
+  return job;
+}
+
+TEST(CosimDescent, BinaryEnergyFallsWithEveryFlipUntilNothingMoves) {
+  constexpr std::uint64_t jobs = 300;
+  std::vector<ArrayJob> all;
+  std::vector<std::unique_ptr<Dut>> duts;
+  for (std::uint64_t seed = 1001; seed <= 1000 + jobs; ++seed) {
+    all.push_back(binary_job(seed));
+    duts.push_back(
+        std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), all.back().array, all.back().topology));
+  }
+  std::size_t falls = 0;
+  for (std::size_t k = 0; k < jobs; ++k) {
+    SCOPED_TRACE("seed " + std::to_string(k + 1001) + ": " + describe(all[k]));
+    load(*duts[k], all[k]);
+    Codes V = all[k].start;
+    bool moved = true;
+    for (int sweep = 0; moved; ++sweep) {
+      ASSERT_LT(sweep, 1000);
+      duts[k]->start(0, 1);
+      duts[k]->run_until_done();
+      const Codes now = duts[k]->read(HM_WINDOW_OUTPUT, all[k].topology.neurons());
+      moved = now != V;
+      ASSERT_TRUE(!moved || energy(all[k], now) < energy(all[k], V)) << "sweep " << sweep;
+      ASSERT_EQ(duts[k]->read(HM_REG_LARGEST_CHANGE) != 0, moved);
+      falls += moved;
+      V = now;
+    }
+  }
+  EXPECT_GT(falls, jobs);
+}
+
+/// W = -1, I = 1/2: E(V) = V^2 / 2 - V / 2. V = 1 has s = -1/2 and goes up to E = 1; V = -1 has s = 3/2 and
+/// comes back. For a sign, the step of 2 is too far as soon as w_ii < 0.
+TEST(CosimDescent, ABinaryNeuronThatHoldsItselfBackFlipsForEverAlone) {
+  const spec::Topology alone = topology_of(1, 1, {});
+  spec::ArraySpec array = spec::descent_array();
+  array.output = spec::Output::binary;
+  const ArrayJob job{array, alone, {-32768}, {16384}, {16384}, 0, 1};
+  Dut dut("dut", array, alone);
+  load(dut, job);
+  Codes V = job.start;
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    dut.start(0, 1);
+    dut.run_until_done();
+    const Codes now = dut.read(HM_WINDOW_OUTPUT, 1);
+    EXPECT_EQ(now[0], sweep % 2 == 0 ? -16384 : 16384);
+    EXPECT_EQ(energy(job, now) > energy(job, V), sweep % 2 == 0);
+    V = now;
+  }
+}
+
+/// The same two neurons as below, with binary outputs and a cell each.
+TEST(CosimDescent, AllAtOnceTwoBinaryNeuronsFlipForEver) {
+  const spec::Topology pair = topology_of(2, 1, {{0, 1}});
+  spec::ArraySpec together = spec::descent_array(), in_turn = together;
+  together.output = in_turn.output = spec::Output::binary;
+  together.schedule = spec::Schedule::synchronous;
+  const ArrayJob job{together, pair, {0, -32768, 0, -32768}, {0, 0}, {16384, 16384}, 0, 1};
+  Dut flipping("flipping", together, pair), resting("resting", in_turn, pair);
+  load(flipping, job);
+  load(resting, job);
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    flipping.start(0, 1);
+    flipping.run_until_done();
+    const int V = sweep % 2 == 0 ? -16384 : 16384;
+    EXPECT_EQ(flipping.read(HM_WINDOW_OUTPUT, 2), (Codes{V, V})) << sweep;
+    EXPECT_EQ(flipping.read(HM_REG_LARGEST_CHANGE), 32768u);
+  }
+  resting.start(0, 100);
+  resting.run_until_done();
+  EXPECT_EQ(resting.read(HM_REG_STATUS), static_cast<std::uint32_t>(HM_STATUS_DONE | HM_STATUS_CONVERGED));
+  EXPECT_EQ(resting.read(HM_REG_SWEEPS), 2u);
+  EXPECT_EQ(resting.read(HM_WINDOW_OUTPUT, 2), (Codes{-16384, 16384}));
+}
+
 /// W = [[0, -1], [-1, 0]], I = 0, V = (1, 1): all at once it flips to (-1, -1) and back for ever; one at a
 /// time it rests.
 TEST(CosimDescent, AllAtOnceTwoNeuronsFlipForEver) {

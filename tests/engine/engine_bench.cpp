@@ -50,10 +50,12 @@ std::string why_not_fast(const spec::ArraySpec& array, const spec::Topology& top
   return engine::why_no_kernel(engine::Plan(array, topology));
 }
 
-spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser) {
+spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser,
+                                  spec::Output output) {
   spec::ArraySpec a;
   a.name = "random, for the kernels";
   a.normaliser = normaliser;
+  a.output = output;
   do {
     a.schedule = static_cast<spec::Schedule>(dice.below(3));
     a.lanes = static_cast<int>(dice.between(1, 6));

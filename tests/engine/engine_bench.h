@@ -18,8 +18,9 @@ const std::vector<std::string>& kernels_here();
 std::string why_not_fast(const spec::ArraySpec& array, const spec::Topology& topology);
 
 /// Any array that the kernels take: 4 to 16 bits for weights and links, up to 32 for the rest, every mode by
-/// itself. `normaliser`: as it should be.
-spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser);
+/// itself. `normaliser` and `output`: as they should be.
+spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser,
+                                  spec::Output output = spec::Output::modified);
 
 void load(engine::Engine& e, const ArrayJob& job);
 Codes outputs(const engine::Engine& e);

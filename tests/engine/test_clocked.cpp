@@ -134,6 +134,8 @@ struct Kind {
   spec::Normaliser normaliser;
   int lanes;
   bool exact;
+  spec::Output output = spec::Output::modified;
+  int per_cell = 3;
 };
 
 class ClockedKinds : public testing::TestWithParam<Kind> {};
@@ -141,7 +143,8 @@ class ClockedKinds : public testing::TestWithParam<Kind> {};
 std::string name_of_kind(const testing::TestParamInfo<Kind>& kind) {
   return std::string(spec::name_of(kind.param.schedule)) + "_" +
          std::string(spec::name_of(kind.param.normaliser)) + "_" + std::to_string(kind.param.lanes) +
-         (kind.param.exact ? "_exact" : "_rounding");
+         (kind.param.exact ? "_exact_" : "_rounding_") + std::string(spec::name_of(kind.param.output)) + "_" +
+         std::to_string(kind.param.per_cell);
 }
 
 /// A grid so large that banks have several blocks of lanes and rows of three lengths.
@@ -150,12 +153,14 @@ TEST_P(ClockedKinds, EqualTheSystemcArrayOnAGrid) {
   spec::ArraySpec array = spec::default_array();
   array.schedule = GetParam().schedule;
   array.normaliser = GetParam().normaliser;
+  array.output = GetParam().output;
   array.lanes = GetParam().lanes;
   array.exact_accumulator = GetParam().exact;
   array.formats.accumulator = {24, 9, spec::Rounding::rnd_conv, spec::Overflow::sat};
   const bool one_by_one = array.schedule == spec::Schedule::sequential;
+  const int n = GetParam().per_cell;
   ArrayJob job =
-      lively_job(30001, array, one_by_one ? grid_topology(3, 4, true) : grid_topology(9, 11, true));
+      lively_job(30001, array, one_by_one ? grid_topology(3, 4, true, n) : grid_topology(9, 11, true, n));
   job.max_sweeps = 2;
   Dut dut("grid", job.array, job.topology);
   expect_alike(dut, job, dice, 1);
@@ -169,6 +174,12 @@ std::vector<Kind> kinds() {
         for (bool exact : {true, false})
           all.push_back({static_cast<spec::Schedule>(schedule), static_cast<spec::Normaliser>(normaliser),
                          lanes, exact});
+  for (int schedule = 0; schedule < 3; ++schedule)
+    for (int lanes : {1, 4})
+      for (int per_cell : {1, 2})
+        for (auto output : {spec::Output::modified, spec::Output::binary})
+          all.push_back({static_cast<spec::Schedule>(schedule), spec::Normaliser::reciprocal, lanes, true,
+                         output, per_cell});
   return all;
 }
 

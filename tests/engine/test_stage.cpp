@@ -65,9 +65,11 @@ class Bank {
 /// An array for the kernels with this stage, `finer` places of the bias behind the weights', and of weights
 /// and biases the widest that still are a case for the kernels. Two things no kernel has, and the drive stays
 /// away from them: rounding to even behind a divider, and prescaled rows coarser than the drive.
-spec::ArraySpec array_for_stage(const spec::NumberFormat& stage, Normaliser normaliser, int finer) {
+spec::ArraySpec array_for_stage(const spec::NumberFormat& stage, Normaliser normaliser, int finer,
+                                spec::Output output = spec::Output::modified) {
   spec::ArraySpec a;
   a.normaliser = normaliser;
+  a.output = output;
   a.formats.drive = a.formats.state = stage;
   if (normaliser == Normaliser::divider && stage.rounding == Rounding::rnd_conv)
     a.formats.drive.rounding = Rounding::trn_zero;
@@ -239,6 +241,15 @@ TEST_P(WideStagesOnKernels, CornersThenRandom) {
 
 INSTANTIATE_TEST_SUITE_P(EveryMode, WideStagesOnKernels,
                          testing::Combine(testing::Values(16, 24, 32), testing::Range(0, 3)));
+
+TEST(BinaryStageOnKernels, CornersThenRandom) {
+  for (int width : {8, 16, 24, 32})
+    for (int rounding = 0; rounding < 7; ++rounding) {
+      const spec::NumberFormat stage{width, 2, static_cast<Rounding>(rounding), spec::Overflow::sat};
+      run_corners_then_random(array_for_stage(stage, Normaliser::reciprocal, 4, spec::Output::binary), 4,
+                              static_cast<std::uint64_t>(1000 + 10 * width + rounding), 40000);
+    }
+}
 
 } // namespace
 } // namespace hopmesh::tests

@@ -11,7 +11,7 @@ int main() {
   try {
     const scene::Inputs inputs = scene::read_inputs(SCENES "/two-nodes.toml", "", {"motion.friction=1.0"});
     const study::BuiltMesh mesh(inputs.scene);
-    study::ReferenceMotion motion(inputs.scene, mesh, inputs.array.schedule);
+    study::ReferenceMotion motion(inputs.scene, mesh, inputs.array);
     for (int step = 0; step < inputs.scene.motion.steps; ++step) {
       const study::StepRow row = motion.advance();
       const double z = motion.positions()[5]; // of node 1: x y z of node 0 come first

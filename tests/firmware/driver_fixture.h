@@ -19,7 +19,7 @@ namespace hopmesh::tests {
 
 /// An array as its capability registers tell it.
 struct FakeArray {
-  std::uint32_t normaliser = HM_NORMALISER_DIVIDER;
+  std::uint32_t normaliser = HM_NORMALISER_DIVIDER, output = HM_OUTPUT_MODIFIED;
   spec::NumberFormat weight{16, 1, spec::Rounding::rnd, spec::Overflow::sat};
   spec::NumberFormat bias{24, 9, spec::Rounding::rnd, spec::Overflow::sat};
   spec::NumberFormat state{16, 2, spec::Rounding::trn_zero, spec::Overflow::sat};
@@ -62,6 +62,7 @@ class DriverTest : public testing::Test {
                   {mesh.mesh.first_link, mesh.mesh.first_link + mesh.mesh.cells + 1});
     expect_bursts(false, HM_WINDOW_LINK, {mesh.mesh.link_to, mesh.mesh.link_to + links});
     bus.expect_read(HM_REG_CAP_NORMALISER, array.normaliser);
+    bus.expect_read(HM_REG_CAP_OUTPUT, array.output);
     bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, packed(array.weight));
     bus.expect_read(HM_REG_CAP_FORMAT_BIAS, packed(array.bias));
     bus.expect_read(HM_REG_CAP_FORMAT_STATE, packed(array.state));

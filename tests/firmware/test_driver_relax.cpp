@@ -116,6 +116,19 @@ TEST_F(Relax, PrescaledRowsAreDividedByTheirSum) {
   EXPECT_EQ(driver.clipped, 1u); // +1 has no code in fixed<16,1>; -1 has
 }
 
+/// Only the sign of s counts there: one exponent for all rows, as if there were a divider.
+TEST_F(Relax, BinaryRowsAreNeverDivided) {
+  FakeArray binary;
+  binary.normaliser = HM_NORMALISER_PRESCALED;
+  binary.output = HM_OUTPUT_BINARY;
+  open_with(binary);
+  EXPECT_EQ(driver.output, static_cast<std::uint32_t>(HM_OUTPUT_BINARY));
+  fill(3, 5);
+  expect_relax(array, shift(), 0, 1, some_answer);
+  EXPECT_EQ(relax(0, 1), HM_OK);
+  EXPECT_EQ(driver.clipped, 0u);
+}
+
 /// A hub with forty springs: its rows have 82 weights, more than the driver divides at a time.
 class RelaxHub : public DriverTest {
  protected:

@@ -75,7 +75,7 @@ Wide low_bits(long word, int width) {
 }
 
 struct Core {
-  std::string schedule, normaliser;
+  std::string schedule, output, normaliser;
   int reciprocal_bits = 0, lanes = 1, per_cell = 3;
   bool exact = false;
   Format weight, bias, sum, drive, state, link;
@@ -121,6 +121,8 @@ struct Core {
   }
 
   Wide driven(std::size_t i, Wide s) const {
+    const Wide one = Wide{1} << drive.fraction;
+    if (output == "binary") return s > 0 ? one : s < 0 ? -one : 0;
     const int unit = std::max(weight.fraction, bias.fraction);
     Wide N = magnitude(I[i]) << (unit - bias.fraction), u = 0;
     for (Wide w : row[i]) N += magnitude(w) << (unit - weight.fraction);
@@ -135,7 +137,6 @@ struct Core {
       const int exponent = bits + reciprocal_bits - 2;
       u = quantised(s * ((Wide{1} << exponent) / N), 1, places - exponent, drive);
     }
-    const Wide one = Wide{1} << drive.fraction;
     return std::min(std::max(u, -one), one);
   }
 
@@ -153,12 +154,13 @@ struct Core {
 
   long beats(std::size_t taps) const { return (static_cast<long>(taps) + lanes - 1) / lanes; }
   long prepare() const {
-    if (normaliser == "prescaled") return 0;
+    if (output == "binary" || normaliser == "prescaled") return 0;
     return beats(longest()) + (normaliser == "reciprocal" ? reciprocal_bits + 1 : 0);
   }
   long length(const std::vector<long>& phase) const {
     std::size_t taps = 0;
     for (long i : phase) taps = std::max(taps, row[static_cast<std::size_t>(i)].size());
+    if (output == "binary") return beats(taps) + 2; // the sign; V
     return beats(taps) +
            (normaliser == "prescaled"    ? 1
             : normaliser == "reciprocal" ? 2
@@ -217,6 +219,7 @@ void take_line(Core& core, const std::string& line) {
   words >> key;
   if (key == "case") core = Core();
   if (key == "schedule") words >> core.schedule;
+  if (key == "output") words >> core.output;
   if (key == "normaliser") words >> core.normaliser;
   if (key == "reciprocal_bits") words >> core.reciprocal_bits;
   if (key == "lanes") words >> core.lanes;

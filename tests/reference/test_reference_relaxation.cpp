@@ -47,6 +47,19 @@ TEST(ReferenceRelaxation, ANeuronWithoutInputKeepsItsOutput) {
   EXPECT_TRUE(rest.converged);
 }
 
+TEST(ReferenceRelaxation, BinaryOutputsAreSignsAndStayWhereTheSumIsZero) {
+  // s = (V1 - 1, V0, 0): neuron 0 down from anywhere but V1 = 1, where its sum is zero.
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(3, 3);
+  W(0, 1) = W(1, 0) = 1;
+  const Network net = network_of(W, Eigen::Vector3d(-1, 0, 0));
+  const auto rest = [&](double V0, double V1, double V2) {
+    return relax(net, one_by_one(3), Eigen::Vector3d(V0, V1, V2), 0, 10, Output::binary).V;
+  };
+  EXPECT_EQ(rest(0.5, 0.25, -0.375), Eigen::Vector3d(-1, -1, -0.375));
+  EXPECT_EQ(rest(1, 1, 0), Eigen::Vector3d(1, 1, 0));
+  EXPECT_EQ(rest(-0.5, 1, 1), Eigen::Vector3d(-1, -1, 1));
+}
+
 TEST(ReferenceRelaxation, StopsAfterTheFirstSweepThatMovesNoOutputByMoreThanTheThreshold) {
   // The neuron of OneNeuronFollowsTheRuleByHand moves by 1/2, 1/8, 9/128.
   const Network net = network_of(Eigen::MatrixXd::Constant(1, 1, -0.5), Vector::Constant(1, 0.5));

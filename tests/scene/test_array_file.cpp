@@ -19,6 +19,7 @@ TEST(ArrayFile, readsEveryKey) {
   EXPECT_EQ(a.name, "mine");
   EXPECT_EQ(a.schedule, spec::Schedule::sequential);
   EXPECT_EQ(a.lanes, 9);
+  EXPECT_EQ(a.output, spec::Output::binary);
   EXPECT_EQ(a.normaliser, spec::Normaliser::reciprocal);
   EXPECT_EQ(a.reciprocal_bits, 20);
   EXPECT_EQ(a.bus_bits, 128);

@@ -54,6 +54,7 @@ void expect_equal(const spec::ArraySpec& a, const spec::ArraySpec& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.schedule, b.schedule);
   EXPECT_EQ(a.lanes, b.lanes);
+  EXPECT_EQ(a.output, b.output);
   EXPECT_EQ(a.normaliser, b.normaliser);
   EXPECT_EQ(a.reciprocal_bits, b.reciprocal_bits);
   EXPECT_EQ(a.exact_accumulator, b.exact_accumulator);

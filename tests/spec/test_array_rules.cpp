@@ -122,6 +122,15 @@ TEST(ArrayRules, OwnAccumulatorsLieBetweenFourAndSixtyTwoBits) {
             "formats.accumulator: fixed<32,2,SC_RND,SC_SAT>: at most the 29 fraction bits of a product");
 }
 
+/// Binary outputs look at no normaliser, so none is refused beside them.
+TEST(ArrayRules, BinaryOutputsGoWithEveryPreset) {
+  for (ArraySpec a : presets()) {
+    a.output = Output::binary;
+    EXPECT_FALSE(validate(a, 27)) << a.name;
+    EXPECT_FALSE(sums_norm(a) || has_reciprocal(a)) << a.name;
+  }
+}
+
 TEST(ArrayRules, ScalarsHaveBounds) {
   EXPECT_EQ(fault_of([](ArraySpec& a) { a.lanes = 0; }), "array.lanes: 0: 1 to 64");
   EXPECT_EQ(fault_of([](ArraySpec& a) { a.lanes = 65; }), "array.lanes: 65: 1 to 64");

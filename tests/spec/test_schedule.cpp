@@ -190,6 +190,23 @@ TEST(Cycles, NormalisersByHand) {
   EXPECT_EQ(m.sweep, 1u * (4 + 2 + 2) + 1);
 }
 
+TEST(Cycles, BinaryOutputsByHand) {
+  // A path 0 - 1 - 2 of cells of one neuron: rows of 2, 3 and 2 taps. The sign takes one cycle, V another,
+  // and nothing is prepared, whatever normaliser a modified output would have.
+  const Topology t = topology_of(3, 1, {{0, 1}, {1, 2}});
+  for (int normaliser = 0; normaliser < 3; ++normaliser) {
+    ArraySpec a;
+    a.output = spec::Output::binary;
+    a.normaliser = static_cast<spec::Normaliser>(normaliser);
+    const auto m = spec::cycle_model(a, t, spec::phases_of(t, Schedule::sequential));
+    EXPECT_EQ(m.phase, (std::vector<std::uint64_t>{4, 5, 4}));
+    EXPECT_EQ(m.sweep, 14u);
+    EXPECT_EQ(m.prepare, 0u);
+    EXPECT_EQ(m.run(10), 141u);
+    EXPECT_EQ(spec::cycle_model(a, t, spec::phases_of(t, Schedule::coloured)).sweep, 5u + 4u + 1u);
+  }
+}
+
 TEST(Cycles, APhaseWaitsForItsLongestRow) {
   // A path 0 - 1 - 2 and an isolated cell 3: rows of 6, 9, 6 and 3 taps; sequential, one lane, prescaled.
   const Topology t = topology_of(4, 3, {{0, 1}, {1, 2}});

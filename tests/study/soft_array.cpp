@@ -26,6 +26,7 @@ SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topolog
                 {HM_REG_CAP_NEURONS_PER_CELL, topology.neurons_per_cell},
                 {HM_REG_CAP_LINK_WORDS, topology.link_to.size()},
                 {HM_REG_CAP_NORMALISER, static_cast<std::uint32_t>(array.normaliser)},
+                {HM_REG_CAP_OUTPUT, static_cast<std::uint32_t>(array.output)},
                 {HM_REG_CAP_FORMAT_WEIGHT, word_of(array.formats.weight)},
                 {HM_REG_CAP_FORMAT_BIAS, word_of(array.formats.bias)},
                 {HM_REG_CAP_FORMAT_STATE, word_of(array.formats.state)}};

@@ -35,7 +35,7 @@ TEST(ArrayMotion, FollowsTheReferenceAsFarAsTheFormatsReach) {
     scene.mesh.planar = planar;
     if (planar) scene.force.wind = scene::Vector3{0.3, 0, 0};
     Rig rig(scene);
-    study::ReferenceMotion reference(scene, rig.mesh, fine_array().schedule);
+    study::ReferenceMotion reference(scene, rig.mesh, fine_array());
     for (int k = 0; k < 4; ++k) {
       const StepRow a = rig.motion.advance(), b = reference.advance();
       EXPECT_EQ(a.sweeps, b.sweeps);

@@ -18,7 +18,7 @@ using ::testing::Not;
 class Compare : public ::testing::Test {
  protected:
   void add_reference() {
-    reference.emplace(scene, mesh, array.schedule);
+    reference.emplace(scene, mesh, array);
     contenders.push_back({"reference", &*reference, nullptr, nullptr});
   }
   void add_array(const std::string& name, std::optional<Fault> fault = {}) {

@@ -28,7 +28,7 @@ struct Rig {
     if (fixed)
       motion = std::make_unique<study::ArrayMotion>(short_scene(), mesh, fine_array(), port, true);
     else
-      motion = std::make_unique<study::ReferenceMotion>(short_scene(), mesh, fine_array().schedule);
+      motion = std::make_unique<study::ReferenceMotion>(short_scene(), mesh, fine_array());
     facts = {
         {short_scene(), fine_array()}, fixed ? "engine" : "reference", fixed, "hopmesh run grid", 0, fixed};
   }

@@ -35,7 +35,8 @@ struct DriverCase {
     };
     const double w = largest(mesh->weight), b = largest(mesh->bias);
     const spec::Formats& f = job.array.formats;
-    const bool prescaled = job.array.normaliser == spec::Normaliser::prescaled;
+    const bool prescaled =
+        job.array.output == spec::Output::modified && job.array.normaliser == spec::Normaliser::prescaled;
     int shift = std::min(w == 0 ? 5000 : room_for(w, f.weight), b == 0 ? 5000 : room_for(b, f.bias));
     if (prescaled || shift == 5000) shift = 0;
     const spec::Topology& t = job.topology;

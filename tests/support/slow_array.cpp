@@ -78,18 +78,21 @@ std::uint64_t groups(std::size_t taps, int lanes) {
 std::uint64_t slow_cycles(const ArrayJob& job, std::uint32_t sweeps) {
   const spec::ArraySpec& a = job.array;
   const spec::Topology& t = job.topology;
-  const bool reciprocal = a.normaliser == spec::Normaliser::reciprocal;
-  const bool prescaled = a.normaliser == spec::Normaliser::prescaled;
-  const std::uint64_t normalise = prescaled ? 1 : reciprocal ? 2 : a.formats.drive.fraction_bits() + 2;
+  const bool binary = a.output == spec::Output::binary;
+  const bool reciprocal = !binary && a.normaliser == spec::Normaliser::reciprocal;
+  const bool prescaled = !binary && a.normaliser == spec::Normaliser::prescaled;
+  const std::uint64_t normalise = binary || prescaled ? 1
+                                  : reciprocal        ? 2
+                                                      : a.formats.drive.fraction_bits() + 2;
   std::uint64_t sweep = 1, longest = 0;
   for (const auto& phase : spec::phases_of(t, a.schedule)) {
     std::uint64_t row = 0;
     for (std::uint32_t neuron : phase)
       row = std::max(row, groups(t.taps(neuron / t.neurons_per_cell), a.lanes));
-    sweep += row + normalise + 2;
+    sweep += row + normalise + (binary ? 1 : 2);
     longest = std::max(longest, row);
   }
-  const std::uint64_t prepare = prescaled ? 0 : longest + (reciprocal ? a.reciprocal_bits + 1 : 0);
+  const std::uint64_t prepare = binary || prescaled ? 0 : longest + (reciprocal ? a.reciprocal_bits + 1 : 0);
   return 1 + prepare + sweeps * sweep;
 }
 

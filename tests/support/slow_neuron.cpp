@@ -77,6 +77,8 @@ Wide row_sum(const spec::ArraySpec& array, const std::vector<std::int64_t>& weig
 std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,
                    Wide n) {
   const spec::Formats& f = array.formats;
+  const std::int64_t one = std::int64_t{1} << f.drive.fraction_bits();
+  if (array.output == spec::Output::binary) return s == 0 ? 0 : s > 0 ? one : -one;
   std::int64_t u = 0;
   if (array.normaliser == spec::Normaliser::prescaled)
     u = quantise_code(s, accumulator.fraction_bits(), f.drive);
@@ -84,7 +86,6 @@ std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accum
     u = divide(f, accumulator, s, n);
   else if (n != 0)
     u = multiply_by_reciprocal(array, accumulator, s, n);
-  const std::int64_t one = std::int64_t{1} << f.drive.fraction_bits();
   return u > one ? one : u < -one ? -one : u;
 }
 

@@ -125,6 +125,24 @@ TEST(Stage, NoInputAtAllKeepsV) {
     }
 }
 
+TEST(Stage, ABinaryOutputIsTheSignOfItsSumAndKeepsVAtZero) {
+  for (int normaliser = 0; normaliser < 3; ++normaliser)
+    for (int rounding = 0; rounding < 7; ++rounding) {
+      auto a = stage_spec(static_cast<Normaliser>(normaliser), static_cast<Rounding>(rounding));
+      a.output = spec::Output::binary;
+      const systemc::Datapath path(a, spec::exact_accumulator_format(a.formats, 3), 3);
+      OutputStage stage("stage", path); // no N was ever told
+      for (std::int64_t v : {-16384, -16383, -1, 0, 1, 16383, 16384})
+        for (std::int64_t size : {std::int64_t{1}, std::int64_t{16384}, std::int64_t{1} << 39}) {
+          EXPECT_EQ(fired(stage, v, size), 16384);
+          EXPECT_EQ(stage.drive_raw(), 16384);
+          EXPECT_EQ(fired(stage, v, -size), -16384);
+          EXPECT_EQ(fired(stage, v, 0), v);
+          EXPECT_EQ(stage.drive_raw(), 0);
+        }
+    }
+}
+
 TEST(Stage, BoundsAreReachedAndNeverPassed) {
   for (int normaliser = 0; normaliser < 3; ++normaliser)
     for (int rounding = 0; rounding < 7; ++rounding) {

@@ -201,6 +201,7 @@ TEST(Capabilities, DescribeTheArray) {
     expect(HM_REG_CAP_FORMAT_STATE, format(f.state));
     expect(HM_REG_CAP_FORMAT_LINK, format(f.link));
     expect(HM_REG_CAP_FORMAT_ACCUMULATOR, format(spec::accumulator_format(array, t.most_taps())));
+    expect(HM_REG_CAP_OUTPUT, static_cast<std::uint32_t>(array.output));
     EXPECT_EQ(dut->read(HM_WINDOW_FIRST_LINK, t.first_link.size()),
               std::vector<std::int32_t>(t.first_link.begin(), t.first_link.end()));
     EXPECT_EQ(dut->read(HM_WINDOW_LINK, t.link_to.size()),

@@ -1,0 +1,36 @@
+// The problem set: networks whose answer is known or can be judged, each made by a formula and a seed, the
+// same on every machine. docs/networks.md lists them.
+#pragma once
+
+#include "sim/record/matrix_market.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hopmesh::problems {
+
+/// Least of E = -1/2 V'WV - I'V wanted, over the corners (binary) or the whole (modified) of the box [-1, 1].
+struct Problem {
+  std::string name, about;
+  bool binary = false;
+  record::SparseMatrix W; ///< symmetric
+  std::vector<double> bias, start;
+  std::optional<double> least_energy; ///< where the construction tells it
+  /// What outputs mean, in a sentence.
+  std::function<std::string(const std::vector<double>& V)> verdict;
+};
+
+/// In the order of the table in docs/networks.md.
+const std::vector<std::string>& names();
+
+/// `seed` chooses where the network starts (in a memory: pattern number seed, with noise of its own), never
+/// the network. Throws std::out_of_range for a name that is none.
+Problem make(const std::string& name, std::uint64_t seed = 1);
+
+/// The pattern that a memory starts beside; empty for other problems.
+std::vector<double> pattern_of(const std::string& name, std::uint64_t seed);
+
+} // namespace hopmesh::problems
