@@ -58,13 +58,13 @@ TEST(Pins, aStaticSceneNeedsOneInEveryPartOfTheMesh) {
   const TempFolder temp;
   scene.mesh.file = temp.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 0 1\n"
                                           "f 1 2 3\nf 4 5 6\n");
-  scene.mesh.pinned = {std::int64_t{1}};
+  scene.mesh.pinned.emplace_back(std::int64_t{1});
   scene.motion.formulation = Formulation::incremental;
   EXPECT_EQ(complaint([&] { build_mesh(scene); }), "");
   scene.incremental.rule = "static";
   EXPECT_THAT(complaint([&] { build_mesh(scene); }),
               ::testing::HasSubstr("mesh.pinned: found no pin in the part of node 3"));
-  scene.mesh.pinned.push_back(std::int64_t{5});
+  scene.mesh.pinned.emplace_back(std::int64_t{5});
   EXPECT_EQ(complaint([&] { build_mesh(scene); }), "");
 }
 
