@@ -23,7 +23,7 @@ typedef struct increment {
    than the longest spring. */
 static double trusted_distance(const hm_mesh* mesh, const double* position) {
   double longest = 0;
-  int exact = 1;
+  int exact = mesh->law == HM_LINEAR;
   for (uint32_t e = 0; e < mesh->springs; ++e) {
     const hm_spring* spring = &mesh->spring[e];
     const double *a = position + 3 * spring->node[0], *b = position + 3 * spring->node[1];

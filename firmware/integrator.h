@@ -60,7 +60,7 @@ typedef struct hm_step_result {
 int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
             hm_step_result* result);
 
-/* Sum of alpha (|x_i - x_j| - L)^2 over all springs, positions [nodes * 3]. */
+/* What all springs hold (hm_mesh.law), positions [nodes * 3]. */
 double hm_spring_energy(const hm_mesh* mesh, const double* position);
 
 #ifdef __cplusplus

@@ -36,7 +36,7 @@ Vector pull_at(const scene::Mesh& mesh, const Increment& increment) {
   for (const scene::Spring& spring : mesh.springs) {
     const auto [i, j] = spring.node;
     const Vector3 u = at(increment.predicted, i) - at(increment.predicted, j);
-    const Vector3 f = expand_spring(spring, 1, u, Compressed::as_none).slope;
+    const Vector3 f = expand_spring(mesh, spring, 1, u, Compressed::as_none).slope;
     at(pull, i) -= f;
     at(pull, j) += f;
   }
@@ -62,7 +62,7 @@ double change_by_pull(const scene::Mesh& mesh, const Increment& increment) {
 // further than the longest spring.
 double trusted(const scene::Mesh& mesh, const Increment& increment) {
   double longest = 0;
-  bool quadratic = true;
+  bool quadratic = mesh.law == scene::SpringLaw::linear;
   for (const scene::Spring& spring : mesh.springs) {
     const Vector3 u = at(increment.predicted, spring.node[0]) - at(increment.predicted, spring.node[1]);
     longest = std::max(longest, u.norm());
@@ -211,7 +211,7 @@ Network network(const scene::Mesh& mesh, const Increment& increment, double scal
     const auto [i, j] = spring.node;
     const Vector3 u = at(increment.predicted, i) - at(increment.predicted, j) +
                       reach * (output(mesh, V0, i) - output(mesh, V0, j));
-    assembly.add_spring(spring, expand_spring(spring, reach, u, Compressed::as_none));
+    assembly.add_spring(spring, expand_spring(mesh, spring, reach, u, Compressed::as_none));
   }
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
     Vector3 slope = inertia * output(mesh, V0, node);

@@ -40,9 +40,9 @@ Vector energy_changes(const scene::Mesh& mesh, const Motion& motion, const Vecto
       Vector::Constant(nodes_of(mesh), all ? spring_energy(mesh, C) - spring_energy(mesh, x) : 0.0);
   for (const scene::Spring& spring : mesh.springs) {
     const auto [i, j] = spring.node;
-    const double before = spring_term(spring, at(from, i), at(from, j));
-    change[i] += spring_term(spring, at(probed, i), at(C, j)) - before;
-    change[j] += spring_term(spring, at(C, i), at(probed, j)) - before;
+    const double before = spring_term(mesh, spring, at(from, i), at(from, j));
+    change[i] += spring_term(mesh, spring, at(probed, i), at(C, j)) - before;
+    change[j] += spring_term(mesh, spring, at(C, i), at(probed, j)) - before;
   }
   return change;
 }

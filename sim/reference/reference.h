@@ -66,7 +66,7 @@ Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state
 Vector expansion_point(const scene::Mesh& mesh, const State& state);
 /// E(V) of docs/theory.md, section 1 (paper eq. 15).
 double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
-/// Sum of alpha (|x_i - x_j| - L)^2.
+/// What all springs hold: sum of alpha (|x_i - x_j| - L)^2, or of their constant pull's work.
 double spring_energy(const scene::Mesh& mesh, const Vector& position);
 /// W = -H, I = H V0 - g of docs/theory.md, section 2, about V0.
 Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);

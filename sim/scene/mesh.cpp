@@ -19,6 +19,15 @@ double distance(const Vector3& a, const Vector3& b) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
+/// A constant tension knows no rest length. Its floor is a thousandth of the mean spring unless told: far
+/// below what a picture shows, and short springs still weigh little more than the others.
+void set_tension(const Scene& scene, Mesh& mesh) {
+  mesh.law = SpringLaw::tension;
+  double sum = 0;
+  for (const Spring& s : mesh.springs) sum += distance(mesh.position[s.node[0]], mesh.position[s.node[1]]);
+  mesh.floor = scene.mesh.floor.value_or(1e-3 * sum / static_cast<double>(mesh.springs.size()));
+}
+
 void set_rest_lengths(const Scene& scene, Mesh& mesh) {
   for (Spring& s : mesh.springs) {
     s.rest_length = scene.mesh.rest.value_or(distance(mesh.position[s.node[0]], mesh.position[s.node[1]]));
@@ -110,7 +119,10 @@ Mesh build_mesh(const Scene& scene) {
   else
     build_from_file(scene, mesh);
   pin_nodes(scene, mesh);
-  set_rest_lengths(scene, mesh);
+  if (scene.mesh.law == SpringLaw::tension)
+    set_tension(scene, mesh);
+  else
+    set_rest_lengths(scene, mesh);
   check_planar(scene, mesh);
   check_motion(scene, mesh);
   check_held(scene, mesh);

@@ -21,11 +21,16 @@ struct Grid {
 /// Which nodes are pinned: names (left, right, top, bottom, corners) or node numbers.
 using Pin = std::variant<std::string, std::int64_t>;
 
+/// What a spring pulls with: its stretch times 2 alpha, or alpha whatever its length.
+enum class SpringLaw { linear, tension };
+
 struct MeshSpec {
   std::optional<Grid> grid;        ///< exactly one of grid and file is set
   std::optional<std::string> file; ///< OBJ, path already resolved against the scene file's folder
   double scale = 1.0;              ///< file meshes: factor on coordinates
   double structural = 1.0, shear = 1.0, bend = 0.0; ///< alpha of each kind; 0: no such spring
+  SpringLaw law = SpringLaw::linear;
+  std::optional<double> floor; ///< tension: length that smooths the shortest; none: of the mesh (mesh.h)
   std::vector<Pin> pinned;
   double pin_band = 0.02; ///< file meshes: `top` is the part of the extent within this share of the highest
   std::string up = "z";   ///< file meshes: the axis along which `top` is highest: x, y or z

@@ -59,6 +59,7 @@ class SceneReader {
     read_force();
     keys_.refuse_unknown();
     check_shape();
+    check_law();
     return scene_;
   }
 
@@ -89,6 +90,11 @@ class SceneReader {
     keys_.real("mesh.springs.structural", mesh.structural, from_zero);
     keys_.real("mesh.springs.shear", mesh.shear, from_zero);
     keys_.real("mesh.springs.bend", mesh.bend, from_zero);
+    std::string law = "linear";
+    keys_.choice("mesh.springs.law", law, {"linear", "tension"});
+    mesh.law = law == "tension" ? SpringLaw::tension : SpringLaw::linear;
+    double floor = 0;
+    if (keys_.real("mesh.springs.floor", floor, above_zero)) mesh.floor = floor;
   }
 
   void read_pins() {
@@ -148,6 +154,14 @@ class SceneReader {
     Vector3 wind{};
     if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
     keys_.real("force.drag", scene_.force.drag, from_zero);
+  }
+
+  void check_law() const {
+    const MeshSpec& mesh = scene_.mesh;
+    if (mesh.law == SpringLaw::linear && mesh.floor)
+      throw error("mesh.springs.floor", "this key only beside law = \"tension\"");
+    if (mesh.law == SpringLaw::tension && mesh.rest.value_or(0) != 0)
+      throw error("mesh.rest", "none beside law = \"tension\", which pulls alike at any length");
   }
 
   void check_shape() const {
