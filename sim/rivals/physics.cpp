@@ -32,6 +32,9 @@ Surroundings surroundings_of(const scene::Scene& scene) {
   if (scene.mesh.law == scene::SpringLaw::tension)
     throw scene::scene_error(scene, "mesh.springs.law", "\"tension\"",
                              "\"linear\": rivals and truth know no other springs");
+  if (scene.force.image)
+    throw scene::scene_error(scene, "force.image.file", "an image",
+                             "none: rivals and truth do not look at it");
   const double friction = scene.motion.friction;
   if (!(friction > 0))
     throw scene::scene_error(scene, "motion.friction", "0", "above 0 for a method with a drag");

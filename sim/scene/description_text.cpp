@@ -85,10 +85,16 @@ std::string relax_text(const RelaxSpec& relax) {
                      relax.max_sweeps, relax.expansions);
 }
 
+std::string image_text(const ImageSpec& image) {
+  return fmt::format("image = {{ file = {}, pitch = {}, strength = {}, smoothing = {} }}\n",
+                     string(image.file), number(image.pitch), number(image.strength),
+                     number(image.smoothing));
+}
+
 std::string force_text(const ForceSpec& force) {
   const std::string wind = force.wind ? "wind = " + vector(*force.wind) + '\n' : "";
-  return fmt::format("\n[force]\ngravity = {}\n{}drag = {}\n", vector(force.gravity), wind,
-                     number(force.drag));
+  return fmt::format("\n[force]\ngravity = {}\n{}drag = {}\n{}", vector(force.gravity), wind,
+                     number(force.drag), force.image ? image_text(*force.image) : "");
 }
 
 } // namespace

@@ -66,9 +66,18 @@ struct RelaxSpec {
   std::int64_t expansions = 1;
 };
 
+/// A picture in the x-z plane, its top left pixel at the origin, that pulls nodes to the edges it shows.
+struct ImageSpec {
+  std::string file;       ///< PGM or PNG, path already resolved against the scene file's folder
+  double pitch = 1.0;     ///< m from pixel to pixel
+  double strength = 1.0;  ///< J that a node on the strongest edge has less
+  double smoothing = 2.0; ///< standard deviation in pixels
+};
+
 struct ForceSpec {
   Vector3 gravity{0, 0, 0}; ///< m/s^2
   std::optional<Vector3> wind;
+  std::optional<ImageSpec> image;
   double drag = 0; ///< 1/s: -drag * v is added to every free node's acceleration
 };
 

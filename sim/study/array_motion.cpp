@@ -64,6 +64,7 @@ ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const
                          ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
       memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
+  if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array.schedule);
 }
 
@@ -78,7 +79,8 @@ StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.now.output;
-  if (check_) check_->begin(state());
+  if (image_) motion_.node_force = image_->at(memory_.now.position).data();
+  if (check_) check_->begin(state(), motion_.node_force);
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;

@@ -134,7 +134,8 @@ TEST(ReferenceStatic, AStepAgainstNothingGoesNoFurtherThanTheLongestSpring) {
 TEST(ReferenceStatic, TheNetworkHasTheSlopeOfThePotential) {
   Random random(72);
   for (int k = 0; k < 20; ++k) {
-    const scene::Mesh mesh = random_mesh(random, 6, k % 2 == 1, k % 3);
+    scene::Mesh mesh = random_mesh(random, 6, k % 2 == 1, k % 3);
+    if (k % 4 == 3) mesh.law = scene::SpringLaw::tension, mesh.floor = 0.1;
     Motion motion = static_motion();
     motion.force = {0.3, -0.2, -1};
     const State state = random_state(random, mesh);
