@@ -1,7 +1,7 @@
 #include "sim/record/overlay.h"
 
 #include "sim/record/base64.h"
-#include "sim/record/crest.h"
+#include "sim/record/png.h"
 
 #include <fmt/format.h>
 
