@@ -18,7 +18,7 @@ int hm_relax(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solv
              hm_step_result* result);
 
 double hm_length(const double* v, uint32_t n);
-double hm_one_spring_energy(const hm_spring* spring, const double* a, const double* b);
+double hm_one_spring_energy(const hm_mesh* mesh, const hm_spring* spring, const double* a, const double* b);
 int hm_is_finite(double x);
 
 #endif

@@ -15,8 +15,12 @@ int hm_is_finite(double x) {
   return x - x == 0;
 }
 
-double hm_one_spring_energy(const hm_spring* spring, const double* a, const double* b) {
+double hm_one_spring_energy(const hm_mesh* mesh, const hm_spring* spring, const double* a, const double* b) {
   const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  if (mesh->law == HM_TENSION) {
+    const double length = hm_length(d, 3);
+    return spring->weight * sqrt(length * length + mesh->floor * mesh->floor);
+  }
   const double stretch = hm_length(d, 3) - spring->rest_length;
   return spring->weight * stretch * stretch;
 }
@@ -24,7 +28,7 @@ double hm_one_spring_energy(const hm_spring* spring, const double* a, const doub
 double hm_spring_energy(const hm_mesh* mesh, const double* position) {
   double sum = 0;
   for (uint32_t e = 0; e < mesh->springs; ++e)
-    sum += hm_one_spring_energy(&mesh->spring[e], position + 3 * mesh->spring[e].node[0],
+    sum += hm_one_spring_energy(mesh, &mesh->spring[e], position + 3 * mesh->spring[e].node[0],
                                 position + 3 * mesh->spring[e].node[1]);
   return sum;
 }

@@ -66,6 +66,21 @@ static inline void spring_vector(const hm_mesh* mesh, const hm_spring* spring, u
   }
 }
 
+/* S_e and f_e of a spring that pulls alike at any length; floor > 0 keeps both finite. */
+static inline void tension_terms(const hm_mesh* mesh, const hm_spring* spring, const double u[3], double h,
+                                 double s[3][3], double f[3], const uint32_t n) {
+  const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + mesh->floor * mesh->floor);
+  const double pull = spring->weight * h / length;
+  double along[3];
+  for (uint32_t p = 0; p < n; ++p) {
+    const double up = u[axis_of(mesh, p, n)];
+    along[p] = up / length;
+    f[p] = pull * up;
+  }
+  for (uint32_t p = 0; p < n; ++p)
+    for (uint32_t q = 0; q < n; ++q) s[p][q] = pull * h * ((p == q) - along[p] * along[q]);
+}
+
 /* S_e and f_e of one spring. A spring of no length has no direction: its L = 0 part alone. `convex`: a
    compressed spring's curvature across itself counts as none instead of negative. */
 static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, const double u[3], double h,
@@ -102,7 +117,10 @@ static inline void add_spring(const hm_mesh* mesh, const hm_spring* spring, cons
   const uint32_t i = mesh->cell_of_node[spring->node[0]], j = mesh->cell_of_node[spring->node[1]];
   double u[3], s[3][3], f[3];
   spring_vector(mesh, spring, i, j, predicted, h, network->output, u, n);
-  spring_terms(mesh, spring, u, h, s, f, n, convex);
+  if (mesh->law == HM_TENSION)
+    tension_terms(mesh, spring, u, h, s, f, n);
+  else
+    spring_terms(mesh, spring, u, h, s, f, n, convex);
   if (i != HM_PINNED) {
     add_spring_end(mesh, network, i, spring->link[0], s, n);
     for (uint32_t p = 0; p < n; ++p) network->bias[i * n + p] -= f[p];

@@ -11,10 +11,14 @@ extern "C" {
 
 #define HM_PINNED UINT32_MAX
 
+/* What a spring holds at length l: weight (l - L)^2, or, whatever its length, a constant pull: weight times l
+   smoothed to sqrt(l^2 + floor^2), which has a direction at any length. */
+enum { HM_LINEAR, HM_TENSION };
+
 typedef struct hm_spring {
   uint32_t node[2];
-  double weight;      /* alpha */
-  double rest_length; /* L */
+  double weight;      /* alpha: J/m^2; under HM_TENSION the pull, J/m */
+  double rest_length; /* L; none under HM_TENSION */
   uint32_t link[2];   /* index into link_to of the link node[0] -> node[1] and back; set by hm_mesh_connect */
 } hm_spring;
 
@@ -25,6 +29,8 @@ typedef struct hm_spring {
 typedef struct hm_mesh {
   uint32_t nodes, springs, cells, components;
   uint32_t axis[3];
+  int law;                      /* HM_LINEAR or HM_TENSION, of every spring */
+  double floor;                 /* HM_TENSION: m, above 0 */
   hm_spring* spring;            /* [springs] */
   const double* beta_weight;    /* [nodes] mean alpha of the node's springs: beta_i = beta * dt^4 * this */
   const uint32_t* cell_of_node; /* [nodes] or HM_PINNED */

@@ -49,7 +49,7 @@ static void probe_end(const hm_mesh* mesh, const hm_spring* spring, int end, dou
   double probed[3];
   for (uint32_t x = 0; x < 3; ++x) probed[x] = state->predicted[3 * node + x] + h * direction[x];
   state->energy_change[cell] +=
-      hm_one_spring_energy(spring, probed, state->predicted + 3 * spring->node[1 - end]) - before;
+      hm_one_spring_energy(mesh, spring, probed, state->predicted + 3 * spring->node[1 - end]) - before;
 }
 
 /* Delta E_i of every cell (paper eq. 6). With `all springs`, the springs elsewhere change by E(C) - E(x): the
@@ -63,7 +63,8 @@ static void probe_energies(const hm_mesh* mesh, const hm_motion* motion, hm_stat
   for (uint32_t e = 0; e < mesh->springs; ++e) {
     const hm_spring* spring = &mesh->spring[e];
     const double* at = all ? state->predicted : state->position;
-    const double before = hm_one_spring_energy(spring, at + 3 * spring->node[0], at + 3 * spring->node[1]);
+    const double before =
+        hm_one_spring_energy(mesh, spring, at + 3 * spring->node[0], at + 3 * spring->node[1]);
     probe_end(mesh, spring, 0, h, state, before);
     probe_end(mesh, spring, 1, h, state, before);
   }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <png.h>
-#include <stdexcept>
 
 namespace hopmesh::record {
 namespace {
@@ -189,10 +187,6 @@ std::uint8_t byte(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-void write_to_string(png_structp png, png_bytep data, png_size_t bytes) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), bytes);
-}
-
 } // namespace
 
 Picture draw_crest(std::uint32_t size) {
@@ -210,27 +204,6 @@ Picture draw_crest(std::uint32_t size) {
       picture.rgba.insert(picture.rgba.end(), {byte(c.r), byte(c.g), byte(c.b), 255});
     }
   return picture;
-}
-
-std::string encode_png(const Picture& picture) {
-  std::string file;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) throw std::runtime_error("libpng cannot start");
-  if (setjmp(png_jmpbuf(png))) {
-    png_destroy_write_struct(&png, &info);
-    throw std::runtime_error("libpng cannot encode the picture");
-  }
-  png_set_write_fn(png, &file, write_to_string, nullptr);
-  png_set_compression_level(png, 5);
-  png_set_IHDR(png, info, picture.width, picture.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  for (std::uint32_t y = 0; y < picture.height; ++y)
-    png_write_row(png, picture.rgba.data() + std::size_t{y} * picture.width * 4);
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return file;
 }
 
 std::string crest_png(std::uint32_t size) {

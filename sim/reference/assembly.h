@@ -5,6 +5,7 @@
 #include "sim/reference/components.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hopmesh::reference {
 
@@ -19,10 +20,18 @@ struct Expansion {
 /// How a compressed spring's curvature across itself, which is negative, is taken.
 enum class Compressed { as_it_is, as_none };
 
+/// The same of a constant pull: T sqrt(l^2 + floor^2), whose curvature is nowhere negative.
+inline Expansion expand_tension(double T, double floor, double h, const Vector3& u) {
+  const double smoothed = std::sqrt(u.squaredNorm() + floor * floor);
+  const Vector3 w = u / smoothed;
+  return {T * h * h / smoothed * (Block::Identity() - w * w.transpose()), T * h * w};
+}
+
 /// S_e and f_e of a spring that is u long and moves by h times its outputs. At length 0 it has no direction:
 /// only the part of it that needs none, that of L = 0, is kept.
-inline Expansion expand_spring(const scene::Spring& spring, double h, const Vector3& u,
-                               Compressed compressed) {
+inline Expansion expand_spring(const scene::Mesh& mesh, const scene::Spring& spring, double h,
+                               const Vector3& u, Compressed compressed) {
+  if (mesh.law == scene::SpringLaw::tension) return expand_tension(spring.weight, mesh.floor, h, u);
   const double length = u.norm();
   const double ratio = length > 0 ? spring.rest_length / length : 0;
   const double curved = compressed == Compressed::as_none ? std::min(ratio, 1.0) : ratio;

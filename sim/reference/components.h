@@ -4,6 +4,8 @@
 
 #include "sim/reference/reference.h"
 
+#include <cmath>
+
 namespace hopmesh::reference {
 
 using Vector3 = Eigen::Vector3d;
@@ -59,8 +61,12 @@ inline void set_output(const scene::Mesh& mesh, Vector& V, Eigen::Index node, co
 /// springs.
 Vector node_beta(const scene::Mesh& mesh, const Motion& motion);
 
-/// alpha (|p - q| - L)^2 of one spring with its ends at p and q (paper eq. 4).
-inline double spring_term(const scene::Spring& spring, const Vector3& p, const Vector3& q) {
+/// What one spring holds with its ends at p and q: alpha (|p - q| - L)^2 (paper eq. 4), or a constant pull's
+/// alpha |p - q|, smoothed.
+inline double spring_term(const scene::Mesh& mesh, const scene::Spring& spring, const Vector3& p,
+                          const Vector3& q) {
+  if (mesh.law == scene::SpringLaw::tension)
+    return spring.weight * std::sqrt((p - q).squaredNorm() + mesh.floor * mesh.floor);
   const double stretch = (p - q).norm() - spring.rest_length;
   return spring.weight * stretch * stretch;
 }

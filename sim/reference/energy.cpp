@@ -7,7 +7,7 @@ namespace hopmesh::reference {
 double spring_energy(const scene::Mesh& mesh, const Vector& position) {
   double sum = 0;
   for (const scene::Spring& spring : mesh.springs)
-    sum += spring_term(spring, at(position, spring.node[0]), at(position, spring.node[1]));
+    sum += spring_term(mesh, spring, at(position, spring.node[0]), at(position, spring.node[1]));
   return sum;
 }
 

@@ -40,9 +40,9 @@ Vector energy_changes(const scene::Mesh& mesh, const Motion& motion, const Vecto
       Vector::Constant(nodes_of(mesh), all ? spring_energy(mesh, C) - spring_energy(mesh, x) : 0.0);
   for (const scene::Spring& spring : mesh.springs) {
     const auto [i, j] = spring.node;
-    const double before = spring_term(spring, at(from, i), at(from, j));
-    change[i] += spring_term(spring, at(probed, i), at(C, j)) - before;
-    change[j] += spring_term(spring, at(C, i), at(probed, j)) - before;
+    const double before = spring_term(mesh, spring, at(from, i), at(from, j));
+    change[i] += spring_term(mesh, spring, at(probed, i), at(C, j)) - before;
+    change[j] += spring_term(mesh, spring, at(C, i), at(probed, j)) - before;
   }
   return change;
 }
@@ -73,6 +73,11 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State
   }
 }
 
+Rule rule_named(const std::string& name) {
+  if (name == "static") return Rule::statics;
+  return name == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+}
+
 } // namespace
 
 Motion motion_of(const scene::Scene& scene) {
@@ -88,7 +93,7 @@ Motion motion_of(const scene::Scene& scene) {
   motion.mass = scene.mesh.mass;
   motion.drag = scene.force.drag;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    motion.rule = scene.incremental.rule == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+    motion.rule = rule_named(scene.incremental.rule);
   else
     motion.friction /= 1 + motion.drag * motion.time_step;
   motion.force = vector(scene.force.gravity) + vector(scene.force.wind.value_or(scene::Vector3{0, 0, 0}));

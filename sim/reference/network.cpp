@@ -25,7 +25,7 @@ Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& pre
   for (const scene::Spring& spring : mesh.springs) {
     const auto [i, j] = spring.node;
     const Vector3 u = at(predicted, i) - at(predicted, j) + h * (output(mesh, V0, i) - output(mesh, V0, j));
-    assembly.add_spring(spring, expand_spring(spring, h, u, Compressed::as_it_is));
+    assembly.add_spring(spring, expand_spring(mesh, spring, h, u, Compressed::as_it_is));
   }
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     assembly.add_node(node, expand_unit_length(beta[node], output(mesh, V0, node)));

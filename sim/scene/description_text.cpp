@@ -41,15 +41,20 @@ std::string pins(const std::vector<Pin>& all) {
   return '[' + out + ']';
 }
 
+std::string law_text(const MeshSpec& mesh) {
+  const std::string law = mesh.law == SpringLaw::tension ? "tension" : "linear";
+  return "law = " + string(law) + (mesh.floor ? ", floor = " + number(*mesh.floor) : "");
+}
+
 std::string shape_text(const MeshSpec& mesh) {
   if (mesh.grid)
     return fmt::format("grid = {{ rows = {}, columns = {}, pitch = {} }}\n"
-                       "springs = {{ structural = {}, shear = {}, bend = {} }}\n",
+                       "springs = {{ structural = {}, shear = {}, bend = {}, {} }}\n",
                        mesh.grid->rows, mesh.grid->columns, number(mesh.grid->pitch), number(mesh.structural),
-                       number(mesh.shear), number(mesh.bend));
-  return fmt::format("file = {}\nscale = {}\nup = {}\npin_band = {}\nsprings = {{ structural = {} }}\n",
+                       number(mesh.shear), number(mesh.bend), law_text(mesh));
+  return fmt::format("file = {}\nscale = {}\nup = {}\npin_band = {}\nsprings = {{ structural = {}, {} }}\n",
                      string(mesh.file.value_or("")), number(mesh.scale), string(mesh.up),
-                     number(mesh.pin_band), number(mesh.structural));
+                     number(mesh.pin_band), number(mesh.structural), law_text(mesh));
 }
 
 std::string mesh_text(const MeshSpec& mesh) {
@@ -80,10 +85,16 @@ std::string relax_text(const RelaxSpec& relax) {
                      relax.max_sweeps, relax.expansions);
 }
 
+std::string image_text(const ImageSpec& image) {
+  return fmt::format("image = {{ file = {}, pitch = {}, strength = {}, smoothing = {} }}\n",
+                     string(image.file), number(image.pitch), number(image.strength),
+                     number(image.smoothing));
+}
+
 std::string force_text(const ForceSpec& force) {
   const std::string wind = force.wind ? "wind = " + vector(*force.wind) + '\n' : "";
-  return fmt::format("\n[force]\ngravity = {}\n{}drag = {}\n", vector(force.gravity), wind,
-                     number(force.drag));
+  return fmt::format("\n[force]\ngravity = {}\n{}drag = {}\n{}", vector(force.gravity), wind,
+                     number(force.drag), force.image ? image_text(*force.image) : "");
 }
 
 } // namespace

@@ -10,7 +10,8 @@ namespace {
 constexpr int rounds = 2000;
 constexpr double close_enough = 1e-9; // relative change of the eigenvalue in a round
 
-/// y += K_spring x: k (w w^T + (1 - L/l)(1 - w w^T)) on the difference of the ends.
+/// y += K_spring x: k (w w^T + (1 - L/l)(1 - w w^T)) on the difference of the ends, T/l (1 - w w^T) under a
+/// constant tension T.
 void add_spring(const Mesh& mesh, const Spring& s, const std::vector<Vector3>& x, std::vector<Vector3>& y) {
   const std::uint32_t i = s.node[0], j = s.node[1];
   Vector3 w{}, d{};
@@ -18,9 +19,11 @@ void add_spring(const Mesh& mesh, const Spring& s, const std::vector<Vector3>& x
   for (std::size_t p = 0; p < 3; ++p) w[p] = mesh.position[i][p] - mesh.position[j][p], length += w[p] * w[p];
   length = std::sqrt(length);
   for (std::size_t p = 0; p < 3; ++p) d[p] = x[i][p] - x[j][p], along += d[p] * w[p] / length;
-  const double tension = 1 - s.rest_length / length;
+  const bool tense = mesh.law == SpringLaw::tension;
+  const double across = tense ? s.weight / length : 2 * s.weight * (1 - s.rest_length / length);
+  const double lengthwise = tense ? 0 : 2 * s.weight;
   for (std::size_t p = 0; p < 3; ++p) {
-    const double pull = 2 * s.weight * (tension * d[p] + (1 - tension) * along * w[p] / length);
+    const double pull = across * d[p] + (lengthwise - across) * along * w[p] / length;
     y[i][p] += pull, y[j][p] -= pull;
   }
 }

@@ -8,7 +8,7 @@ namespace hopmesh::scene {
 struct Spring {
   std::uint32_t node[2]; ///< node[0] < node[1]; no two springs join the same pair
   double weight;         ///< alpha
-  double rest_length;    ///< m
+  double rest_length;    ///< m; 0 under a constant tension
 };
 
 /// A corner of a triangle: the node it sits on and its texture coordinates (0,0 is the picture's top left).
@@ -23,6 +23,8 @@ struct Mesh {
   std::vector<bool> pinned;      ///< [nodes]
   double mass = 1.0;             ///< kg per node
   bool planar = false;
+  SpringLaw law = SpringLaw::linear;
+  double floor = 0;                             ///< tension: m, above 0
   std::vector<std::array<Corner, 3>> triangles; ///< the surface, front side counter-clockwise
 
   std::size_t nodes() const { return position.size(); }

@@ -47,9 +47,11 @@ class ObjReader {
 
   ObjSurface read() {
     read_lines(read_whole_file(path_, "an OBJ mesh", most_bytes));
-    if (first_corner_.empty()) fail(0, "no faces (lines \"f ...\")", "an OBJ mesh with at least one");
+    if (first_corner_.empty() && line_ends_.empty())
+      fail(0, "no faces (lines \"f ...\")", "an OBJ mesh with at least one, or with lines \"l ...\"");
     first_corner_.push_back(corners_.size());
-    check_indices();
+    check_indices(corners_);
+    check_indices(line_ends_);
     check_used();
     make_edges();
     make_triangles();
@@ -82,6 +84,8 @@ class ObjReader {
       read_texture(words);
     else if (keyword == "f")
       read_face(words);
+    else if (keyword == "l")
+      read_polyline(words);
   }
 
   double number(std::string_view word, const char* name) const {
@@ -120,6 +124,16 @@ class ObjReader {
     if (count < 3) fail(line_, fmt::format("a face of {} corners", count), "at least three");
   }
 
+  /// l a b c: springs a-b and b-c, and nothing to see but them.
+  void read_polyline(Words& words) {
+    std::vector<RawCorner> points;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      points.push_back(corner(word));
+    if (points.size() < 2) fail(line_, fmt::format("a line of {} points", points.size()), "at least two");
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      line_ends_.insert(line_ends_.end(), {points[k], points[k + 1]});
+  }
+
   /// v, v/vt, v//vn or v/vt/vn; normals are of no use to a mesh that moves.
   RawCorner corner(std::string_view word) const {
     const auto slash = word.find('/');
@@ -148,9 +162,9 @@ class ObjReader {
     return k > 0 ? k - 1 : k + std::int64_t(so_far);
   }
 
-  void check_indices() const {
+  void check_indices(const std::vector<RawCorner>& corners) const {
     const std::int64_t nodes = surface_.position.size(), textures = texture_.size();
-    for (const RawCorner& c : corners_) {
+    for (const RawCorner& c : corners) {
       if (c.vertex >= nodes)
         fail(c.line, fmt::format("vertex {}", c.vertex + 1), fmt::format("1 to {}", nodes));
       if (c.texture >= textures)
@@ -159,22 +173,26 @@ class ObjReader {
     }
   }
 
-  /// A node without a face has no spring: it would fall through the world and nobody would see it.
+  /// A node without face and line has no spring: it would fall through the world and nobody would see it.
   void check_used() const {
     std::vector<bool> used(surface_.position.size());
-    for (const RawCorner& c : corners_) used[c.vertex] = true;
+    for (const auto* corners : {&corners_, &line_ends_})
+      for (const RawCorner& c : *corners) used[c.vertex] = true;
     const auto lost = std::find(used.begin(), used.end(), false);
     if (lost == used.end()) return;
     const auto node = lost - used.begin();
-    fail(vertex_line_[node], fmt::format("vertex {} in no face", node + 1), "only vertices that faces use");
+    fail(vertex_line_[node], fmt::format("vertex {} in no face", node + 1),
+         "only vertices that faces or lines use");
   }
 
   void make_edges() {
     auto& edges = surface_.edges;
-    edges.reserve(corners_.size());
+    edges.reserve(corners_.size() + line_ends_.size() / 2);
     for (std::size_t f = 0; f + 1 < first_corner_.size(); ++f)
       for (std::size_t k = first_corner_[f]; k < first_corner_[f + 1]; ++k)
         edges.push_back(edge(corners_[k], corners_[k + 1 < first_corner_[f + 1] ? k + 1 : first_corner_[f]]));
+    for (std::size_t k = 0; k < line_ends_.size(); k += 2)
+      edges.push_back(edge(line_ends_[k], line_ends_[k + 1]));
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }
@@ -206,7 +224,8 @@ class ObjReader {
   ObjSurface surface_;
   std::vector<int> vertex_line_;
   std::vector<std::array<float, 2>> texture_;
-  std::vector<RawCorner> corners_;
+  std::vector<RawCorner> corners_;        ///< of faces
+  std::vector<RawCorner> line_ends_;      ///< two a spring
   std::vector<std::size_t> first_corner_; ///< of each face, and the end
 };
 

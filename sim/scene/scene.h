@@ -21,11 +21,16 @@ struct Grid {
 /// Which nodes are pinned: names (left, right, top, bottom, corners) or node numbers.
 using Pin = std::variant<std::string, std::int64_t>;
 
+/// What a spring pulls with: its stretch times 2 alpha, or alpha whatever its length.
+enum class SpringLaw { linear, tension };
+
 struct MeshSpec {
   std::optional<Grid> grid;        ///< exactly one of grid and file is set
   std::optional<std::string> file; ///< OBJ, path already resolved against the scene file's folder
   double scale = 1.0;              ///< file meshes: factor on coordinates
   double structural = 1.0, shear = 1.0, bend = 0.0; ///< alpha of each kind; 0: no such spring
+  SpringLaw law = SpringLaw::linear;
+  std::optional<double> floor; ///< tension: length that smooths the shortest; none: of the mesh (mesh.h)
   std::vector<Pin> pinned;
   double pin_band = 0.02; ///< file meshes: `top` is the part of the extent within this share of the highest
   std::string up = "z";   ///< file meshes: the axis along which `top` is highest: x, y or z
@@ -52,7 +57,7 @@ struct ProbeSpec {
 };
 
 struct IncrementalSpec {
-  std::string rule = "backward_euler"; ///< backward_euler | bdf2
+  std::string rule = "backward_euler"; ///< backward_euler | bdf2 | static
 };
 
 struct RelaxSpec {
@@ -61,9 +66,18 @@ struct RelaxSpec {
   std::int64_t expansions = 1;
 };
 
+/// A picture in the x-z plane, its top left pixel at the origin, that pulls nodes to the edges it shows.
+struct ImageSpec {
+  std::string file;       ///< PGM or PNG, path already resolved against the scene file's folder
+  double pitch = 1.0;     ///< m from pixel to pixel
+  double strength = 1.0;  ///< J that a node on the strongest edge has less
+  double smoothing = 2.0; ///< standard deviation in pixels
+};
+
 struct ForceSpec {
   Vector3 gravity{0, 0, 0}; ///< m/s^2
   std::optional<Vector3> wind;
+  std::optional<ImageSpec> image;
   double drag = 0; ///< 1/s: -drag * v is added to every free node's acceleration
 };
 
@@ -77,6 +91,11 @@ struct Scene {
   IncrementalSpec incremental;
   RelaxSpec relax;
   ForceSpec force;
+
+  /// Steps look for the least potential energy; nothing has a speed.
+  bool is_static() const {
+    return motion.formulation == Formulation::incremental && incremental.rule == "static";
+  }
 };
 
 } // namespace hopmesh::scene

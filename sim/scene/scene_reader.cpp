@@ -19,7 +19,8 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// A relative mesh path is meant from the scene file's folder; one given by --set from where the user stands.
+/// A relative path of a mesh or picture is meant from the scene file's folder; one given by --set from where
+/// the user stands.
 std::string resolved(const std::string& file, const std::string& scene_path, bool overridden) {
   const fs::path folder = overridden ? fs::path() : fs::path(scene_path).parent_path();
   return fs::absolute(folder / file).lexically_normal().string();
@@ -59,6 +60,7 @@ class SceneReader {
     read_force();
     keys_.refuse_unknown();
     check_shape();
+    check_law();
     return scene_;
   }
 
@@ -89,6 +91,11 @@ class SceneReader {
     keys_.real("mesh.springs.structural", mesh.structural, from_zero);
     keys_.real("mesh.springs.shear", mesh.shear, from_zero);
     keys_.real("mesh.springs.bend", mesh.bend, from_zero);
+    std::string law = "linear";
+    keys_.choice("mesh.springs.law", law, {"linear", "tension"});
+    mesh.law = law == "tension" ? SpringLaw::tension : SpringLaw::linear;
+    double floor = 0;
+    if (keys_.real("mesh.springs.floor", floor, above_zero)) mesh.floor = floor;
   }
 
   void read_pins() {
@@ -134,7 +141,7 @@ class SceneReader {
   }
 
   void read_incremental() {
-    keys_.choice("incremental.rule", scene_.incremental.rule, {"backward_euler", "bdf2"});
+    keys_.choice("incremental.rule", scene_.incremental.rule, {"backward_euler", "bdf2", "static"});
   }
 
   void read_relax() {
@@ -148,6 +155,32 @@ class SceneReader {
     Vector3 wind{};
     if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
     keys_.real("force.drag", scene_.force.drag, from_zero);
+    read_image();
+  }
+
+  void read_image() {
+    ImageSpec image;
+    const bool named = keys_.text("force.image.file", image.file, "the path of a PGM or PNG picture");
+    keys_.real("force.image.pitch", image.pitch, above_zero);
+    keys_.real("force.image.strength", image.strength, from_zero);
+    keys_.real("force.image.smoothing", image.smoothing, {0.5, 50, "a number of pixels from 0.5 to 50"});
+    const TomlValue* table = source_.find("force.image");
+    if (!named && table && table->as<TomlTable>())
+      throw input_error(source_.file_of(table->line), table->line, "force.image", "no file",
+                        "file = a PGM or PNG picture");
+    if (!named) return;
+    if (scene_.motion.formulation == Formulation::probe)
+      throw error("force.image.file", "formulation = \"incremental\" where an image pulls");
+    image.file = resolved(image.file, scene_.source, scene_.lines["force.image.file"] == 0);
+    scene_.force.image = image;
+  }
+
+  void check_law() const {
+    const MeshSpec& mesh = scene_.mesh;
+    if (mesh.law == SpringLaw::linear && mesh.floor)
+      throw error("mesh.springs.floor", "this key only beside law = \"tension\"");
+    if (mesh.law == SpringLaw::tension && mesh.rest.value_or(0) != 0)
+      throw error("mesh.rest", "none beside law = \"tension\", which pulls alike at any length");
   }
 
   void check_shape() const {

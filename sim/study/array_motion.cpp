@@ -27,6 +27,15 @@ std::string error_text(int error) {
   }
 }
 
+namespace {
+
+int rule_named(const std::string& name) {
+  if (name == "static") return HM_STATIC;
+  return name == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+}
+
+} // namespace
+
 hm_motion motion_of(const scene::Scene& scene) {
   hm_motion m{};
   m.time_step = scene.motion.time_step;
@@ -35,7 +44,7 @@ hm_motion motion_of(const scene::Scene& scene) {
   m.drag = scene.force.drag;
   m.rule = HM_PROBE;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    m.rule = scene.incremental.rule == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+    m.rule = rule_named(scene.incremental.rule);
   else
     m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
   m.gamma = scene.probe.gamma;
@@ -55,6 +64,7 @@ ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const
                          ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
       memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
+  if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
 }
 
@@ -69,7 +79,8 @@ StepRow ArrayMotion::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.now.output;
-  if (check_) check_->begin(state());
+  if (image_) motion_.node_force = image_->at(memory_.now.position).data();
+  if (check_) check_->begin(state(), motion_.node_force);
   port_.begin_step(step);
   const hm_solver solver{&driver_, hm_driver_relax};
   hm_step_result result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/study/bus_profile.h"
+#include "sim/study/image_force.h"
 #include "sim/study/motion.h"
 #include "sim/study/reference_check.h"
 #include "sim/study/step_memory.h"
@@ -36,6 +37,7 @@ class ArrayMotion : public Motion {
   ArrayPort& port_;
   BusProfile profile_;
   std::optional<ReferenceCheck> check_;
+  std::optional<ImageForce> image_;
   hm_motion motion_{};
   hm_driver driver_{};
   StepMemory memory_;

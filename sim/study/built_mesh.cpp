@@ -27,6 +27,8 @@ BuiltMesh::BuiltMesh(const scene::Scene& scene) : mesh_(scene::build_mesh(scene)
   firmware_.components = static_cast<std::uint32_t>(topology_.neurons_per_cell);
   firmware_.axis[1] = mesh_.planar ? 2 : 1;
   firmware_.axis[2] = 2;
+  firmware_.law = mesh_.law == scene::SpringLaw::tension ? HM_TENSION : HM_LINEAR;
+  firmware_.floor = mesh_.floor;
   firmware_.spring = springs_.data();
   firmware_.beta_weight = beta_weight_.data();
   firmware_.cell_of_node = cell_of_node_.data();

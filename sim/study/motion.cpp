@@ -18,7 +18,10 @@ void measure(const scene::Mesh& mesh, const double* x, const double* v, StepRow&
   double energy = 0, kinetic = 0, strain = 0, stretch = 0;
   for (const scene::Spring& s : mesh.springs) {
     const double length = distance(x + 3 * s.node[0], x + 3 * s.node[1]);
-    energy += s.weight * (length - s.rest_length) * (length - s.rest_length);
+    if (mesh.law == scene::SpringLaw::tension)
+      energy += s.weight * std::sqrt(length * length + mesh.floor * mesh.floor);
+    else
+      energy += s.weight * (length - s.rest_length) * (length - s.rest_length);
     const bool at_rest = s.rest_length > 0; // else it is measured against how it was built
     const double born =
         at_rest ? s.rest_length : distance(mesh.position[s.node[0]].data(), mesh.position[s.node[1]].data());

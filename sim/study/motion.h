@@ -26,7 +26,7 @@ struct StepRow {
   std::uint64_t step = 0; ///< 0-based
   double time = 0;        ///< s, at the step's end
   std::uint64_t sweeps = 0, cycles = 0;
-  double energy = 0;           ///< sum alpha (|x_i - x_j| - L)^2
+  double energy = 0;           ///< of the springs: sum alpha (|x_i - x_j| - L)^2, or their law's
   double kinetic = 0;          ///< sum 1/2 m v^2, J
   double max_strain = 0;       ///< largest | length / rest length - 1 |
   double max_stretch = 0;      ///< largest length / rest length (initial length where L = 0)

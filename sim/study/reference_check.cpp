@@ -27,7 +27,7 @@ ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh,
     : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh())) {}
 
-void ReferenceCheck::begin(const StepState& state) {
+void ReferenceCheck::begin(const StepState& state, const double* node_force) {
   const auto vector = [](const std::vector<double>& values) -> Vector {
     return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
@@ -38,6 +38,9 @@ void ReferenceCheck::begin(const StepState& state) {
   state_.previous_velocity = vector(state.previous_velocity);
   state_.V = by_node(state.output);
   state_.step = state.step;
+  if (node_force)
+    motion_.node_force =
+        Eigen::Map<const Vector>(node_force, static_cast<Eigen::Index>(state.position.size()));
 }
 
 Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {

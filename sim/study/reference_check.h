@@ -15,8 +15,9 @@ class ReferenceCheck {
  public:
   ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
 
-  /// Before a step: where it starts from, outputs cell by cell.
-  void begin(const StepState& state);
+  /// Before a step: where it starts from, outputs cell by cell; accelerations [3 * nodes] of each node's own,
+  /// or null.
+  void begin(const StepState& state, const double* node_force);
   /// After it: the network that the firmware built about `start` and the outputs that the array came to.
   /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
   /// the incremental formulation, at the array's own scale.
@@ -29,7 +30,7 @@ class ReferenceCheck {
   double network_difference(const reference::Network& network, const hm_network& built) const;
 
   const BuiltMesh& mesh_;
-  const reference::Motion motion_;
+  reference::Motion motion_;
   const reference::Order order_;
   reference::State state_;
 };

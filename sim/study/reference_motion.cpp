@@ -8,9 +8,16 @@ ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mes
                                  const spec::ArraySpec& array)
     : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh(), motion_.rule)),
-      position_(state_.position.data(), state_.position.data() + state_.position.size()) {}
+      position_(state_.position.data(), state_.position.data() + state_.position.size()) {
+  if (scene.force.image) image_.emplace(scene);
+}
 
 StepRow ReferenceMotion::advance() {
+  if (image_) {
+    const std::vector<double>& pull = image_->at(position_);
+    motion_.node_force =
+        Eigen::Map<const reference::Vector>(pull.data(), static_cast<Eigen::Index>(pull.size()));
+  }
   reference::State next = state_;
   last_ = reference::advance(mesh_.mesh(), motion_, order_, next);
   if (!next.position.allFinite() || !next.velocity.allFinite())

@@ -1,6 +1,7 @@
 // The reference as a level: the same steps in double, none of the firmware's arithmetic.
 #pragma once
 
+#include "sim/study/image_force.h"
 #include "sim/study/motion.h"
 #include "sim/study/reference_check.h"
 
@@ -20,7 +21,8 @@ class ReferenceMotion : public Motion {
 
  private:
   const BuiltMesh& mesh_;
-  const reference::Motion motion_;
+  reference::Motion motion_;
+  std::optional<ImageForce> image_;
   const reference::Order order_;
   reference::State state_;
   reference::Step last_;

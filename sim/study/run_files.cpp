@@ -1,8 +1,10 @@
 #include "sim/study/run_files.h"
 
 #include "sim/record/gltf.h"
+#include "sim/record/overlay.h"
 #include "sim/record/report.h"
 #include "sim/study/array_info.h"
+#include "sim/study/image_force.h"
 #include "sim/study/run_picture.h"
 #include "sim/study/step_table.h"
 #include "study_version.h"
@@ -118,6 +120,10 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
                      statistics(result, motion)); // kept if the pictures cannot be written
   auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
   record::write_glb(view, folder_ / "mesh.glb");
+  if (facts_.inputs.scene.force.image)
+    overlay(motion);
+  else
+    discard("overlay.svg");
   view.tables = run_tables(facts_, mesh_, result, motion.ranges());
   if (facts_.fixed)
     for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
@@ -126,6 +132,20 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
   record::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
   if (result.outcome == Outcome::interrupted) return;
   discard(checkpoint_name); // last: until here a killed run can be resumed
+}
+
+// Springs as they were and as they came to lie, over the picture that pulled them.
+void RunFiles::overlay(const Motion& motion) const {
+  const scene::Scene& scene = facts_.inputs.scene;
+  std::vector<record::OverlayLine> start, end;
+  for (const scene::Spring& s : mesh_.mesh().springs) {
+    const auto pixel = [&](const double* place) { return pixel_of(*scene.force.image, place); };
+    const auto& was = mesh_.mesh().position;
+    const double* is = motion.positions().data();
+    start.push_back({pixel(was[s.node[0]].data()), pixel(was[s.node[1]].data())});
+    end.push_back({pixel(is + 3 * s.node[0]), pixel(is + 3 * s.node[1])});
+  }
+  record::write_overlay(folder_ / "overlay.svg", picture_of(scene), start, end);
 }
 
 // The part first: a kill in between leaves no more than a kill before.

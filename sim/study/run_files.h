@@ -42,7 +42,8 @@ class RunFiles : public StepSink {
   void step(const StepRow& row, const Motion& motion) override;
   /// All steps so far are on the disk; how far that is.
   std::vector<NamedMark> sync();
-  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb and report.html. A checkpoint
+  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb, report.html and, where an
+  /// image pulls, overlay.svg. A checkpoint
   /// stays only where there is something to go on with.
   void finish(const RunResult& result, const Motion& motion);
 
@@ -51,6 +52,7 @@ class RunFiles : public StepSink {
   const BuiltMesh& mesh() const { return mesh_; }
 
  private:
+  void overlay(const Motion& motion) const;
   void discard(const std::string& name) const;
   std::string statistics(const RunResult& result, const Motion& motion) const;
   std::string manifest(const RunResult& result) const;

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped() {
   std::vector<std::string> names;
   for (const std::string& file : names_in(HOPMESH_SOURCE_DIR "/sim/scenes"))
-    names.push_back(fs::path(file).stem());
+    if (fs::path(file).extension() == ".toml") names.push_back(fs::path(file).stem());
   return names;
 }
 

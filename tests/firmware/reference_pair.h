@@ -33,6 +33,7 @@ inline scene::Mesh random_scene_mesh(Dice& dice, bool planar) {
       if (apart(i / columns, j / columns) > 1 || apart(i % columns, j % columns) > 1) continue;
       mesh.springs.push_back({{i, j}, 0.2 + 2 * dice.unit(), dice.one_in(6) ? 0.0 : 0.5 + dice.unit()});
     }
+  if (dice.one_in(4)) mesh.law = scene::SpringLaw::tension, mesh.floor = 0.01 + dice.unit();
   return mesh;
 }
 
@@ -48,6 +49,8 @@ inline std::vector<PlainSpring> plain_springs(const scene::Mesh& mesh) {
 struct Pair {
   explicit Pair(const scene::Mesh& a_mesh)
       : scene(a_mesh), firmware(plain_springs(a_mesh), a_mesh.pinned, a_mesh.planar ? 2 : 3) {
+    firmware.mesh.law = a_mesh.law == scene::SpringLaw::tension ? HM_TENSION : HM_LINEAR;
+    firmware.mesh.floor = a_mesh.floor;
     hm_mesh_connect(&firmware.mesh);
   }
 

@@ -31,6 +31,14 @@ TEST(Frequency, AChainHasItsClosedForm) {
   }
 }
 
+// A constant tension T is soft along itself; across a length l it holds like a spring of T / l.
+TEST(Frequency, ATensionSwingsAcrossItself) {
+  Mesh mesh = chain(1, 50, 0.25);
+  mesh.position[1][0] = 2;
+  mesh.law = SpringLaw::tension;
+  EXPECT_NEAR(largest_frequency(mesh), std::sqrt(50 / 2.0 / 0.25), 1e-9);
+}
+
 TEST(Frequency, APinnedMeshHasNone) {
   Mesh mesh = chain(1, 1, 1);
   mesh.pinned[1] = true;

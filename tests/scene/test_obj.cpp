@@ -38,6 +38,27 @@ TEST(Obj, polygonsAreFansButOnlyTheirSidesAreSprings) {
                                        std::pair{3, 4}));
 }
 
+TEST(Obj, linesAreSpringsFromPointToPoint) {
+  const Mesh mesh = mesh_of_obj("v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nl 1 2 3\nl 4/1 2\nvt 0 0\n");
+  EXPECT_THAT(edges(mesh), ElementsAre(std::pair{0, 1}, std::pair{1, 2}, std::pair{1, 3}));
+  EXPECT_TRUE(mesh.triangles.empty());
+}
+
+TEST(Obj, aLineAlongAFaceIsNoSecondSpring) {
+  const Mesh mesh = mesh_of_obj("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 2\nf 1 2 3\nl 4 3 1\n");
+  EXPECT_THAT(edges(mesh), ElementsAre(std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}, std::pair{2, 3}));
+}
+
+TEST(Obj, theFloorOfATensionIsAThousandthOfTheMeanSpringUnlessTold) {
+  const TempFolder temp;
+  Scene scene = file_scene(temp.write("l.obj", "v 0 0 0\nv 1 0 0\nv 1 0 3\nl 1 2 3\n"));
+  scene.mesh.law = SpringLaw::tension;
+  EXPECT_DOUBLE_EQ(build_mesh(scene).floor, 2e-3);
+  EXPECT_EQ(build_mesh(scene).springs[1].rest_length, 0);
+  scene.mesh.floor = 0.5;
+  EXPECT_EQ(build_mesh(scene).floor, 0.5);
+}
+
 TEST(Obj, sharedEdgesAreOneSpring) {
   const Mesh mesh = build_mesh(file_scene(folder + "good/tent.obj"));
   EXPECT_THAT(edges(mesh), ElementsAre(std::pair{0, 1}, std::pair{0, 3}, std::pair{0, 4}, std::pair{1, 2},

@@ -21,6 +21,8 @@ TEST(SceneFile, readsEveryKey) {
   EXPECT_EQ(s.mesh.structural, 2);
   EXPECT_EQ(s.mesh.shear, 0.25);
   EXPECT_EQ(s.mesh.bend, 0.125);
+  EXPECT_EQ(s.mesh.law, SpringLaw::tension);
+  EXPECT_EQ(s.mesh.floor, 0.001);
   EXPECT_THAT(s.mesh.pinned, ElementsAre(Pin("left"), Pin(std::int64_t{7}), Pin("corners")));
   EXPECT_EQ(s.mesh.mass, 0.5);
   EXPECT_EQ(s.mesh.rest, 0.0);

@@ -21,6 +21,8 @@ void expect_equal(const MeshSpec& a, const MeshSpec& b) {
   EXPECT_EQ(a.structural, b.structural);
   EXPECT_EQ(a.shear, b.shear);
   EXPECT_EQ(a.bend, b.bend);
+  EXPECT_EQ(a.law, b.law);
+  EXPECT_EQ(a.floor, b.floor);
   EXPECT_EQ(a.pinned, b.pinned);
   EXPECT_EQ(a.pin_band, b.pin_band);
   EXPECT_EQ(a.up, b.up);
