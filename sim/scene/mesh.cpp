@@ -87,6 +87,7 @@ Mesh build_mesh(const Scene& scene) {
   set_rest_lengths(scene, mesh);
   check_planar(scene, mesh);
   check_motion(scene, mesh);
+  if (scene.mesh.start.shuffle > 0) shuffle_nodes(scene.mesh.start, mesh);
   return mesh;
 }
 

@@ -21,6 +21,12 @@ struct Grid {
 /// Which nodes are pinned: names (left, right, top, bottom, corners) or node numbers.
 using Pin = std::variant<std::string, std::int64_t>;
 
+/// Where free nodes start: their places as built, or a random way off along each axis, the same everywhere.
+struct Start {
+  double shuffle = 0; ///< m, at most, along each axis
+  std::int64_t seed = 1;
+};
+
 struct MeshSpec {
   std::optional<Grid> grid;        ///< exactly one of grid and file is set
   std::optional<std::string> file; ///< OBJ, path already resolved against the scene file's folder
@@ -32,6 +38,7 @@ struct MeshSpec {
   double mass = 1.0;      ///< kg per node
   std::optional<double> rest; ///< rest length of every spring; none: natural (as built)
   bool planar = false;        ///< two neurons a node, along x and z
+  Start start;
 };
 
 enum class Formulation { probe, incremental };
