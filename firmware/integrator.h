@@ -16,8 +16,9 @@ typedef struct hm_solver {
                hm_relaxation* result);
 } hm_solver;
 
-/* What the outputs mean: directions (the paper), or accelerations of an implicit step. */
-enum { HM_PROBE, HM_BACKWARD_EULER, HM_BDF2 };
+/* What the outputs mean: directions (the paper), accelerations of an implicit step, or (static) displacements
+   towards the least potential energy. */
+enum { HM_PROBE, HM_BACKWARD_EULER, HM_BDF2, HM_STATIC };
 
 typedef struct hm_motion {
   int rule;
@@ -28,20 +29,22 @@ typedef struct hm_motion {
   int energy_of_all_springs;  /* Delta E_i: 0 the node's own springs, 1 all springs */
   int force_on_acceleration;  /* 0: v += dt * force; 1: a += force */
   double force[3];            /* acceleration of every free node: gravity + wind */
+  const double* node_force;   /* incremental: [nodes * 3] of each node's own beside it; null: none */
   double threshold;
   uint32_t max_sweeps, expansions;
 } hm_motion;
 
 /* State between steps and room to work in; every array is the caller's. */
 typedef struct hm_state {
-  double *position, *velocity, *acceleration;    /* [nodes * 3]; incremental: change of acceleration */
+  double *position, *velocity,
+      *acceleration; /* [nodes * 3]; incremental: change of acceleration, static: of place */
   double *previous_position, *previous_velocity; /* [nodes * 3] a step before; BDF2 only, else may be null */
   double* predicted;                             /* [nodes * 3] C of the step just done */
   double* energy_change;                         /* [cells] Delta E of the step just done (eq. 6) */
   double* direction;  /* [cells * 3] in which each cell's node was pushed in the step just done */
   double* start;      /* [cells * components] V0 of the last expansion, before relaxing */
   hm_network network; /* of the step just done; output holds V at rest */
-  double scale;       /* incremental: what an output of 1 stands for in that network, m/s^2 */
+  double scale;       /* incremental: what an output of 1 stands for in that network, m/s^2; static: m */
   uint64_t step;      /* steps done */
 } hm_state;
 

@@ -1,5 +1,6 @@
 // One time step of the incremental potential (docs/theory.md, section 4): backward Euler and BDF2 as the
-// minimum of inertia and springs, relaxed by the network at a scale that suits its outputs.
+// minimum of inertia and springs, relaxed by the network at a scale that suits its outputs; the static step
+// as the minimum of springs and load alone.
 #include "sim/reference/assembly.h"
 
 #include <cmath>
@@ -10,6 +11,8 @@ namespace {
 constexpr double highest_peak = 0.75, lowest_peak = 0.125; // of |V| at rest, else another scale is tried
 constexpr int smallest_exponent = -200;
 constexpr int most_growths = 64;
+constexpr int most_halvings = 40;
+constexpr double rounding = 1e-12; // of an energy's terms
 
 double largest_in(const Vector& values) {
   return values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff();
@@ -23,10 +26,13 @@ double scale_for(double change) {
   return std::ldexp(1.0, std::max(exponent, smallest_exponent));
 }
 
-// Force of the springs on every free node at C, as the change of acceleration that alone it would give;
-// before the first step nothing better is known. 1/2 where nothing pulls: any scale will do.
-double first_change(const scene::Mesh& mesh, const Increment& increment) {
-  Vector pull = Vector::Zero(3 * nodes_of(mesh));
+bool is_static(const Increment& increment) {
+  return increment.load.size() > 0;
+}
+
+// Force of springs and load on every free node at C.
+Vector pull_at(const scene::Mesh& mesh, const Increment& increment) {
+  Vector pull = is_static(increment) ? increment.load : Vector::Zero(3 * nodes_of(mesh));
   for (const scene::Spring& spring : mesh.springs) {
     const auto [i, j] = spring.node;
     const Vector3 u = at(increment.predicted, i) - at(increment.predicted, j);
@@ -38,20 +44,45 @@ double first_change(const scene::Mesh& mesh, const Increment& increment) {
     if (mesh.pinned[node]) at(pull, node).setZero();
     if (mesh.planar) pull[3 * node + 1] = 0;
   }
-  const double largest = largest_in(pull);
-  return largest > 0 ? largest / (increment.inertia * increment.h) : 0.5;
+  return pull;
+}
+
+// The change of acceleration that the pull alone would give: before the first step nothing better is known. A
+// static step has no inertia, but the stiffest node's springs: an output there moves at least half as far as
+// this. 1/2 where nothing pulls: any scale will do.
+double change_by_pull(const scene::Mesh& mesh, const Increment& increment) {
+  const double largest = largest_in(pull_at(mesh, increment));
+  if (largest == 0) return 0.5;
+  if (!is_static(increment)) return largest / (increment.inertia * increment.h);
+  const Vector still = Vector::Zero(components(mesh) * nodes_of(mesh));
+  return largest / largest_in(network(mesh, increment, 1, still).W.diagonal());
+}
+
+// Where the energy is a quadratic form its minimum is trusted however far it is; elsewhere a step goes no
+// further than the longest spring.
+double trusted(const scene::Mesh& mesh, const Increment& increment) {
+  double longest = 0;
+  bool quadratic = true;
+  for (const scene::Spring& spring : mesh.springs) {
+    const Vector3 u = at(increment.predicted, spring.node[0]) - at(increment.predicted, spring.node[1]);
+    longest = std::max(longest, u.norm());
+    quadratic = quadratic && spring.rest_length == 0;
+  }
+  return quadratic || !is_static(increment) ? HUGE_VAL : longest;
 }
 
 double first_scale(const scene::Mesh& mesh, const Increment& increment, const State& state) {
-  const double before = largest_in(state.acceleration);
-  return scale_for(before > 0 ? before : first_change(mesh, increment));
+  const double before = is_static(increment) ? 0 : largest_in(state.acceleration);
+  const double change = before > 0 ? before : change_by_pull(mesh, increment);
+  return scale_for(std::min(change, trusted(mesh, increment) / 2));
 }
 
 /// A step while it looks for its scale.
 class Relaxing {
  public:
   Relaxing(const scene::Mesh& mesh, const Motion& motion, const Order& order, const Increment& increment)
-      : mesh_(mesh), motion_(motion), order_(order), increment_(increment) {}
+      : mesh_(mesh), motion_(motion), order_(order), increment_(increment),
+        trusted_(trusted(mesh, increment)) {}
 
   // Grows the scale as often as it must, shrinks it once.
   void relax_in_range(Step& step) {
@@ -60,7 +91,7 @@ class Relaxing {
       relax_once(step);
       const double largest = largest_in(step.relaxation.V);
       double wanted = step.scale;
-      if (largest > highest_peak && growths++ < most_growths)
+      if (largest > highest_peak && 2 * step.scale <= trusted_ && growths++ < most_growths)
         wanted = 2 * step.scale;
       else if (largest > 0 && largest < lowest_peak && !shrunk) {
         wanted = std::min(step.scale, scale_for(largest * step.scale));
@@ -85,7 +116,24 @@ class Relaxing {
   const Motion& motion_;
   const Order& order_;
   const Increment& increment_;
+  const double trusted_;
 };
+
+// Springs less the work of the load, with `change` added to C; `size`: of its terms.
+double potential(const scene::Mesh& mesh, const Increment& increment, const Vector& change, double& size) {
+  const Vector place = increment.predicted + change;
+  const double springs = spring_energy(mesh, place);
+  size = std::abs(springs) + increment.load.cwiseProduct(place).cwiseAbs().sum();
+  return springs - increment.load.dot(place);
+}
+
+// An expansion says which way is down, not for how far: half the way, and half of that, until none is up.
+void stay_below(const scene::Mesh& mesh, const Increment& increment, Vector& change) {
+  double size;
+  const double start = potential(mesh, increment, Vector::Zero(change.size()), size);
+  for (int k = 0; k < most_halvings; ++k, change /= 2)
+    if (potential(mesh, increment, change, size) - start <= rounding * size) return;
+}
 
 bool two_steps(const Motion& motion, const State& state) {
   return motion.rule == Rule::bdf2 && state.step > 0;
@@ -101,7 +149,8 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
     const Vector3 slope = two_steps(motion, state)
                               ? Vector3(3 * next - 4 * at(x, node) + at(state.previous_position, node)) / 2
                               : Vector3(next - at(x, node));
-    at(state.velocity, node) = slope / motion.time_step * motion.friction;
+    at(state.velocity, node) =
+        is_static(increment) ? Vector3::Zero() : Vector3(slope / motion.time_step * motion.friction);
     at(state.position, node) = next;
   }
   state.acceleration = change;
@@ -110,12 +159,30 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
 
 } // namespace
 
+namespace {
+
+// Acceleration of a free node by what is no spring.
+Vector3 force_on(const scene::Mesh& mesh, const Motion& motion, Eigen::Index node) {
+  Vector3 force = motion.force;
+  if (motion.node_force.size() > 0) force += at(motion.node_force, node);
+  if (mesh.planar) force.y() = 0;
+  return force;
+}
+
+Increment static_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+  Increment result{state.position, 1, 0, Vector::Zero(3 * nodes_of(mesh))};
+  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
+    if (!mesh.pinned[node]) at(result.load, node) = motion.mass * force_on(mesh, motion, node);
+  return result;
+}
+
+} // namespace
+
 Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+  if (motion.rule == Rule::statics) return static_increment(mesh, motion, state);
   const bool two = two_steps(motion, state);
   const double tau = two ? motion.time_step * 2 / 3 : motion.time_step, slowed = 1 + motion.drag * tau;
-  Increment result{state.position, tau * tau / 2, motion.mass * slowed / (tau * tau)};
-  Vector3 force = motion.force;
-  if (mesh.planar) force.y() = 0;
+  Increment result{state.position, tau * tau / 2, motion.mass * slowed / (tau * tau), {}};
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
     if (mesh.pinned[node]) continue;
     Vector3 x = at(state.position, node), v = at(state.velocity, node);
@@ -123,7 +190,7 @@ Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& 
       x = (4 * x - at(state.previous_position, node)) / 3;
       v = (4 * v - at(state.previous_velocity, node)) / 3;
     }
-    at(result.predicted, node) = x + tau / slowed * (v + tau * force);
+    at(result.predicted, node) = x + tau / slowed * (v + tau * force_on(mesh, motion, node));
   }
   return result;
 }
@@ -132,7 +199,9 @@ double energy(const scene::Mesh& mesh, const Increment& increment, double scale,
   const double reach = increment.h * scale;
   Vector place = increment.predicted;
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) at(place, node) += reach * output(mesh, V, node);
-  return spring_energy(mesh, place) + increment.inertia / 2 * (place - increment.predicted).squaredNorm();
+  const double springs =
+      spring_energy(mesh, place) + increment.inertia / 2 * (place - increment.predicted).squaredNorm();
+  return is_static(increment) ? springs - increment.load.dot(place) : springs;
 }
 
 Network network(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V0) {
@@ -144,13 +213,17 @@ Network network(const scene::Mesh& mesh, const Increment& increment, double scal
                       reach * (output(mesh, V0, i) - output(mesh, V0, j));
     assembly.add_spring(spring, expand_spring(spring, reach, u, Compressed::as_none));
   }
-  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
-    assembly.add_node(node, {inertia * Block::Identity(), inertia * output(mesh, V0, node)});
+  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
+    Vector3 slope = inertia * output(mesh, V0, node);
+    if (is_static(increment)) slope -= reach * at(increment.load, node);
+    assembly.add_node(node, {inertia * Block::Identity(), slope});
+  }
   return assembly.network(V0);
 }
 
-Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale) {
+Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale) {
   Vector V0 = Vector::Zero(components(mesh) * nodes_of(mesh));
+  if (motion.rule == Rule::statics) return V0;
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     if (!mesh.pinned[node]) set_output(mesh, V0, node, at(state.acceleration, node) / scale);
   return V0;
@@ -161,12 +234,13 @@ Step advance_incremental(const scene::Mesh& mesh, const Motion& motion, const Or
   Step step;
   step.predicted = about.predicted;
   step.scale = first_scale(mesh, about, state);
-  step.relaxation.V = expansion_point(mesh, state, step.scale);
+  step.relaxation.V = expansion_point(mesh, motion, state, step.scale);
   Relaxing relaxing(mesh, motion, order, about);
   for (std::uint32_t expansion = 0; expansion < motion.expansions; ++expansion) relaxing.relax_in_range(step);
   Vector change = Vector::Zero(3 * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     at(change, node) = step.scale * output(mesh, step.relaxation.V, node);
+  if (is_static(about)) stay_below(mesh, about, change);
   move(mesh, motion, about, change, state);
   return step;
 }

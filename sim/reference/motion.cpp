@@ -73,6 +73,11 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State
   }
 }
 
+Rule rule_named(const std::string& name) {
+  if (name == "static") return Rule::statics;
+  return name == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+}
+
 } // namespace
 
 Motion motion_of(const scene::Scene& scene) {
@@ -88,7 +93,7 @@ Motion motion_of(const scene::Scene& scene) {
   motion.mass = scene.mesh.mass;
   motion.drag = scene.force.drag;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    motion.rule = scene.incremental.rule == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+    motion.rule = rule_named(scene.incremental.rule);
   else
     motion.friction /= 1 + motion.drag * motion.time_step;
   motion.force = vector(scene.force.gravity) + vector(scene.force.wind.value_or(scene::Vector3{0, 0, 0}));

@@ -28,8 +28,9 @@ struct Relaxation {
   bool converged = false;
 };
 
-/// What the outputs mean: directions (the paper), or accelerations of an implicit step.
-enum class Rule { probe, backward_euler, bdf2 };
+/// What the outputs mean: directions (the paper), accelerations of an implicit step, or displacements towards
+/// the least potential energy.
+enum class Rule { probe, backward_euler, bdf2, statics };
 
 struct Motion {
   Rule rule = Rule::probe;
@@ -37,6 +38,7 @@ struct Motion {
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
   Eigen::Vector3d force;
+  Vector node_force; ///< incremental: [3 * nodes], each node's own beside it; empty: none
   double threshold;
   std::uint32_t max_sweeps, expansions;
 };
@@ -45,7 +47,7 @@ struct Motion {
 Motion motion_of(const scene::Scene& scene);
 
 /// Positions, velocities, accelerations: [3 * nodes], node by node. In the incremental formulation the
-/// acceleration is what the springs added to the prediction, da = sigma V.
+/// acceleration is what the springs added to the prediction, da = sigma V; in a static step, how far it went.
 struct State {
   Vector position, velocity, acceleration;
   Vector previous_position, previous_velocity; ///< a step before; BDF2 only, else empty
@@ -75,15 +77,16 @@ Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& pre
 struct Increment {
   Vector predicted; ///< C, [3 * nodes]
   double h;         ///< x = C + h da, s^2
-  double inertia;   ///< of one node, kg/s^2
+  double inertia;   ///< of one node, kg/s^2; 0 in a static step
+  Vector load;      ///< static step: newtons on every free node, [3 * nodes]; else empty, C knows them
 };
 Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state);
-/// Phi(V) at outputs that stand for da = scale V.
+/// Phi(V) at outputs that stand for da = scale V; less the work of the load in a static step.
 double energy(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V);
 /// Its second-order expansion about V0, with compressed springs counted convex: W is negative semi-definite.
 Network network(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V0);
-/// da of the step before over the scale.
-Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale);
+/// da of the step before over the scale; 0 in a static step.
+Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale);
 
 // ---- both
 

@@ -25,6 +25,10 @@ Vector by_component(const Vector& by_node) {
 }
 
 Surroundings surroundings_of(const scene::Scene& scene) {
+  if (scene.is_static())
+    throw scene::scene_error(
+        scene, "incremental.rule", "\"static\"",
+        "a motion (backward_euler or bdf2) for rivals and truth, which walk through time");
   const double friction = scene.motion.friction;
   if (!(friction > 0))
     throw scene::scene_error(scene, "motion.friction", "0", "above 0 for a method with a drag");

@@ -56,6 +56,32 @@ void check_motion(const Scene& scene, const Mesh& mesh) {
                     "at least one free node");
 }
 
+/// Node -> a node that stands for everything joined to it by springs.
+std::vector<std::uint32_t> components_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.nodes());
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  const auto top = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const Spring& s : mesh.springs) parent[top(s.node[0])] = top(s.node[1]);
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = top(i);
+  return parent;
+}
+
+/// What no pin holds can go anywhere without a spring being longer: there is no least energy to find.
+void check_held(const Scene& scene, const Mesh& mesh) {
+  if (!scene.is_static()) return;
+  const auto part = components_of(mesh);
+  std::vector<bool> held(mesh.nodes());
+  for (std::size_t i = 0; i < mesh.nodes(); ++i)
+    if (mesh.pinned[i]) held[part[i]] = true;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i)
+    if (!held[part[i]])
+      throw scene_error(scene, "mesh.pinned", fmt::format("no pin in the part of node {}", i),
+                        "a pinned node in every part of the mesh, for incremental.rule = \"static\"");
+}
+
 } // namespace
 
 void build_from_file(const Scene& scene, Mesh& mesh) {
@@ -87,6 +113,7 @@ Mesh build_mesh(const Scene& scene) {
   set_rest_lengths(scene, mesh);
   check_planar(scene, mesh);
   check_motion(scene, mesh);
+  check_held(scene, mesh);
   if (scene.mesh.start.shuffle > 0) shuffle_nodes(scene.mesh.start, mesh);
   return mesh;
 }

@@ -59,7 +59,7 @@ struct ProbeSpec {
 };
 
 struct IncrementalSpec {
-  std::string rule = "backward_euler"; ///< backward_euler | bdf2
+  std::string rule = "backward_euler"; ///< backward_euler | bdf2 | static
 };
 
 struct RelaxSpec {
@@ -84,6 +84,11 @@ struct Scene {
   IncrementalSpec incremental;
   RelaxSpec relax;
   ForceSpec force;
+
+  /// Steps look for the least potential energy; nothing has a speed.
+  bool is_static() const {
+    return motion.formulation == Formulation::incremental && incremental.rule == "static";
+  }
 };
 
 } // namespace hopmesh::scene

@@ -142,7 +142,7 @@ class SceneReader {
   }
 
   void read_incremental() {
-    keys_.choice("incremental.rule", scene_.incremental.rule, {"backward_euler", "bdf2"});
+    keys_.choice("incremental.rule", scene_.incremental.rule, {"backward_euler", "bdf2", "static"});
   }
 
   void read_relax() {

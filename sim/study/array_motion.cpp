@@ -27,6 +27,15 @@ std::string error_text(int error) {
   }
 }
 
+namespace {
+
+int rule_named(const std::string& name) {
+  if (name == "static") return HM_STATIC;
+  return name == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+}
+
+} // namespace
+
 hm_motion motion_of(const scene::Scene& scene) {
   hm_motion m{};
   m.time_step = scene.motion.time_step;
@@ -35,7 +44,7 @@ hm_motion motion_of(const scene::Scene& scene) {
   m.drag = scene.force.drag;
   m.rule = HM_PROBE;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    m.rule = scene.incremental.rule == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+    m.rule = rule_named(scene.incremental.rule);
   else
     m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
   m.gamma = scene.probe.gamma;

@@ -65,7 +65,7 @@ struct Moving {
 
 hm_motion random_motion(Dice& dice) {
   hm_motion m{};
-  m.rule = static_cast<int>(dice.below(3));
+  m.rule = static_cast<int>(dice.below(4));
   m.mass = 0.2 + dice.unit(), m.drag = dice.one_in(2) ? 0 : 3 * dice.unit();
   m.time_step = 0.05, m.friction = 0.99, m.gamma = dice.one_in(2) ? 40 : 4000,
   m.beta = dice.one_in(3) ? 0 : 1;
@@ -99,15 +99,22 @@ class TwentySteps : public testing::TestWithParam<int> {};
 TEST_P(TwentySteps, FollowTheReference) {
   Dice dice(GetParam());
   Pair pair(random_scene_mesh(dice, dice.one_in(2)));
-  const hm_motion motion = random_motion(dice);
+  hm_motion motion = random_motion(dice);
   const hm_solver solver{nullptr, &relax_in_double};
   const reference::Order order = number_order(pair);
-  reference::State expected = reference::initial_state(pair.scene, reference_motion(motion).rule);
+  reference::Motion same = reference_motion(motion);
+  std::vector<double> node_force;
+  if (motion.rule != HM_PROBE && dice.one_in(2)) {
+    for (std::size_t k = 0; k < 3 * pair.scene.nodes(); ++k) node_force.push_back(dice.unit() - 0.5);
+    motion.node_force = node_force.data();
+    same.node_force = Eigen::Map<reference::Vector>(node_force.data(), Eigen::Index(node_force.size()));
+  }
+  reference::State expected = reference::initial_state(pair.scene, same.rule);
   Moving moving(pair);
   for (int step = 0; step < 20; ++step) {
     hm_step_result result;
     ASSERT_EQ(hm_step(&pair.firmware.mesh, &motion, &solver, &moving.state, &result), HM_OK);
-    const reference::Step taken = reference::advance(pair.scene, reference_motion(motion), order, expected);
+    const reference::Step taken = reference::advance(pair.scene, same, order, expected);
     const double scale = 1 + expected.acceleration.cwiseAbs().maxCoeff();
     ASSERT_LT(largest_difference(moving.predicted, taken.predicted), 1e-9) << "step " << step;
     ASSERT_LT(largest_difference(moving.position, expected.position), 1e-9) << "step " << step;
@@ -115,7 +122,7 @@ TEST_P(TwentySteps, FollowTheReference) {
     ASSERT_LT(largest_difference(moving.acceleration, expected.acceleration), 1e-9 * scale)
         << "step " << step;
     ASSERT_EQ(moving.state.step, expected.step);
-    if (motion.rule != HM_PROBE) {
+    if (motion.rule != HM_PROBE && taken.scale > 1e-12) { // below, what is left to do is rounding
       ASSERT_EQ(moving.state.scale, taken.scale) << "step " << step;
     }
     const double energy = reference::spring_energy(pair.scene, expected.position);

@@ -32,6 +32,16 @@ TEST(RivalsTruth, OfTheBannerAgreesWithItself) {
   EXPECT_GT(truth.floor[1], 0) << "the two are one";
 }
 
+// Rivals and the truth walk through time, which a static scene has none of.
+TEST(RivalsTruth, RefusesAStaticScene) {
+  scene::Scene scene;
+  EXPECT_NO_THROW(surroundings_of(scene));
+  scene.incremental.rule = "static";
+  EXPECT_NO_THROW(surroundings_of(scene)) << "the rule of a formulation that is not the scene's";
+  scene.motion.formulation = scene::Formulation::incremental;
+  EXPECT_THROW(surroundings_of(scene), scene::InputError);
+}
+
 TEST(RivalsTruth, RefusesWhatItCannotTell) {
   const scene::Mesh mesh = hanging_weight();
   const Physics physics(mesh, falling);

@@ -52,6 +52,22 @@ TEST(Pins, mustLeaveANodeFree) {
               ::testing::HasSubstr("found all 10 nodes pinned"));
 }
 
+// Two rows that nothing joins: one with a pin, one without.
+TEST(Pins, aStaticSceneNeedsOneInEveryPartOfTheMesh) {
+  Scene scene = file_scene("");
+  const TempFolder temp;
+  scene.mesh.file = temp.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 0 1\n"
+                                          "f 1 2 3\nf 4 5 6\n");
+  scene.mesh.pinned = {std::int64_t{1}};
+  scene.motion.formulation = Formulation::incremental;
+  EXPECT_EQ(complaint([&] { build_mesh(scene); }), "");
+  scene.incremental.rule = "static";
+  EXPECT_THAT(complaint([&] { build_mesh(scene); }),
+              ::testing::HasSubstr("mesh.pinned: found no pin in the part of node 3"));
+  scene.mesh.pinned.push_back(std::int64_t{5});
+  EXPECT_EQ(complaint([&] { build_mesh(scene); }), "");
+}
+
 /// Vertices 0..4 at (0,0,0) (2,0,0) (2,0,2) (0,0,2) and the peak (1,1,1).
 Scene tent(const std::string& up, double band) {
   Scene scene = file_scene(folder + "good/tent.obj");
