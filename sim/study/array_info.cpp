@@ -80,13 +80,17 @@ FigureTable memory(const BuiltMesh& mesh, const spec::ArraySpec& array) {
            {"accumulators", kib(bits.accumulators)}}};
 }
 
+std::string formulation(const scene::Scene& scene) {
+  if (scene.motion.formulation == scene::Formulation::probe) return "probe: outputs are directions";
+  return "incremental, " + scene.incremental.rule +
+         (scene.is_static() ? ": outputs are scaled ways towards rest"
+                            : ": outputs are scaled changes of acceleration");
+}
+
 FigureTable motion(const scene::Scene& scene) {
-  const bool probe = scene.motion.formulation == scene::Formulation::probe;
   return {
       "Motion",
-      {{"formulation",
-        probe ? "probe: outputs are directions"
-              : "incremental, " + scene.incremental.rule + ": outputs are scaled changes of acceleration"},
+      {{"formulation", formulation(scene)},
        {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
                              scene.motion.time_step)},
        {"start", scene.mesh.start.shuffle > 0 ? fmt::format("up to {} m off its place, seed {}",
@@ -102,8 +106,8 @@ std::vector<record::Figure> forces_left_out(const scene::Scene& scene) {
   std::vector<record::Figure> rows;
   if (scene.force.gravity == scene::Vector3{0, 0, 0}) rows.push_back({"gravity", "none given"});
   if (!scene.force.wind) rows.push_back({"wind", "none given"});
-  if (scene.force.drag == 0) rows.push_back({"drag of the air", "none given"});
-  if (scene.motion.friction == 1) rows.push_back({"friction", "a factor of 1: none"});
+  if (scene.force.drag == 0 && !scene.is_static()) rows.push_back({"drag of the air", "none given"});
+  if (scene.motion.friction == 1 && !scene.is_static()) rows.push_back({"friction", "a factor of 1: none"});
   return rows;
 }
 
@@ -112,8 +116,12 @@ std::vector<record::Figure> terms_left_out(const scene::Scene& scene) {
   if (scene.mesh.rest == 0.0)
     rows.push_back({"error of the expansion", "rest length 0: the energy is quadratic"});
   if (scene.motion.formulation == scene::Formulation::incremental) {
-    rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
-    if (scene.motion.friction == 0) rows.push_back({"velocity", "friction 0: each step starts from rest"});
+    if (scene.is_static())
+      rows.push_back({"inertia, speed", "static: each step minimises springs and weight alone"});
+    else
+      rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
+    if (scene.motion.friction == 0 && !scene.is_static())
+      rows.push_back({"velocity", "friction 0: each step starts from rest"});
     return rows;
   }
   rows.push_back({"inertia", "mass moves no node in the probe"});

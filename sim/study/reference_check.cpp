@@ -17,6 +17,15 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
   return order;
 }
 
+double alternation(const reference::Network& network, const reference::Order& order, const Vector& V) {
+  const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
+    return reference::relax(network, order, from, 0, sweeps).V;
+  };
+  const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
+  const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
+  return first > 0 && away < first / 2 ? last / first : 0;
+}
+
 ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, spec::Schedule schedule)
     : mesh_(mesh), motion_(reference::motion_of(scene)), order_(order_for(mesh, schedule)),
       state_(reference::initial_state(mesh.mesh())) {}
@@ -48,8 +57,8 @@ reference::Network ReferenceCheck::expanded(const std::vector<double>& start, do
   return reference::network(mesh, reference::increment(mesh, motion_, state_), scale, V0);
 }
 
-ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start,
-                                     double scale) const {
+ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
+                                     bool rested) const {
   Vector V0;
   const reference::Network network = expanded(start, scale, V0);
   const Vector wanted = reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps).V;
@@ -62,6 +71,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const double fall = reference::network_energy(network, V0) - rest;
   if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
   error.network = network_difference(network, built);
+  if (!rested) error.alternation = alternation(network, order_, V);
   return error;
 }
 

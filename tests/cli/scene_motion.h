@@ -25,12 +25,15 @@ struct Positions {
   }
 };
 
-/// Root mean square distance of the nodes at the end of a step.
-inline double distance(const Positions& a, const Positions& b, std::size_t step) {
+/// Root mean square distance of the nodes, each at the end of a step of its own run.
+inline double distance(const Positions& a, const Positions& b, std::size_t step, std::size_t step_of_b) {
   double squares = 0;
   for (std::size_t i = 0; i < a.nodes(); ++i)
-    for (std::size_t p = 0; p < 3; ++p) squares += std::pow(a.at(step, i, p) - b.at(step, i, p), 2);
+    for (std::size_t p = 0; p < 3; ++p) squares += std::pow(a.at(step, i, p) - b.at(step_of_b, i, p), 2);
   return std::sqrt(squares / static_cast<double>(a.nodes()));
+}
+inline double distance(const Positions& a, const Positions& b, std::size_t step) {
+  return distance(a, b, step, step);
 }
 
 class SceneMotion : public Cli {
