@@ -24,6 +24,33 @@ bool continues(const scene::Spring& before, const scene::Spring& spring) {
          spring.node[0] - before.node[0] <= widest_gap + 1;
 }
 
+// What a spring's ends differ by becomes its pull on the first of them.
+double pull_scale(double k, double rest, double square) {
+  const double root = std::sqrt(square), length = root > shortest_spring ? root : shortest_spring;
+  return k - k * (rest / length);
+}
+
+// A row whose springs are further apart than any machine's lanes: read, computed and added in one loop, so
+// that roots and divisions, the slowest instructions, overlap with all others. Springs s and s + apart share
+// a node; safelen says so.
+constexpr Eigen::Index most_lanes = 8;
+void pull_row(Eigen::Index count, Eigen::Index apart, Eigen::Index nodes, const double* k, const double* rest,
+              const double* x, double* f) {
+  const double *const y = x + nodes, *const z = y + nodes;
+  double *const fy = f + nodes, *const fz = fy + nodes;
+#pragma omp simd safelen(8)
+  for (Eigen::Index s = 0; s < count; ++s) {
+    const double dx = x[s + apart] - x[s], dy = y[s + apart] - y[s], dz = z[s + apart] - z[s];
+    const double scale = pull_scale(k[s], rest[s], dx * dx + dy * dy + dz * dz);
+    f[s] += dx * scale;
+    fy[s] += dy * scale;
+    fz[s] += dz * scale;
+    f[s + apart] -= dx * scale;
+    fy[s + apart] -= dy * scale;
+    fz[s + apart] -= dz * scale;
+  }
+}
+
 } // namespace
 
 /// Scratch of a pass, on the stack: passes allocate nothing and may run on several threads.
@@ -111,12 +138,15 @@ void ForcePass::forces(In position, Out force) const {
   force.setZero();
   Block d;
   for (const Row& block : blocks_) {
-    differences(block, position.data(), d);
-    lengths(block, d);
     const double *const k = &stiffness_[block.first], *const rest = &rest_[block.first];
+    if (block.distance >= most_lanes) {
+      pull_row(block.count, block.distance, nodes_, k, rest, position.data() + block.node,
+               force.data() + block.node);
+      continue;
+    }
+    differences(block, position.data(), d);
     for (Eigen::Index s = 0; s < block.count; ++s) {
-      const double length = d.length[s] > shortest_spring ? d.length[s] : shortest_spring;
-      const double scale = k[s] - k[s] * (rest[s] / length);
+      const double scale = pull_scale(k[s], rest[s], d.x[s] * d.x[s] + d.y[s] * d.y[s] + d.z[s] * d.z[s]);
       d.x[s] *= scale;
       d.y[s] *= scale;
       d.z[s] *= scale;

@@ -58,9 +58,11 @@ std::string shape_text(const MeshSpec& mesh) {
 }
 
 std::string mesh_text(const MeshSpec& mesh) {
-  return fmt::format("\n[mesh]\n{}pinned = {}\nmass = {}\nrest = {}\nplanar = {}\n", shape_text(mesh),
-                     pins(mesh.pinned), number(mesh.mass), mesh.rest ? number(*mesh.rest) : string("natural"),
-                     mesh.planar);
+  return fmt::format("\n[mesh]\n{}pinned = {}\nmass = {}\nrest = {}\nplanar = {}\n"
+                     "start = {{ shuffle = {}, seed = {} }}\n",
+                     shape_text(mesh), pins(mesh.pinned), number(mesh.mass),
+                     mesh.rest ? number(*mesh.rest) : string("natural"), mesh.planar,
+                     number(mesh.start.shuffle), mesh.start.seed);
 }
 
 std::string motion_text(const MotionSpec& motion) {

@@ -18,7 +18,7 @@ struct Corner {
 };
 
 struct Mesh {
-  std::vector<Vector3> position; ///< [nodes] at the start, m
+  std::vector<Vector3> position; ///< [nodes] at the start, m: as built, or shuffled
   std::vector<Spring> springs;   ///< ascending by (node[0], node[1])
   std::vector<bool> pinned;      ///< [nodes]
   double mass = 1.0;             ///< kg per node

@@ -14,4 +14,7 @@ void build_from_file(const Scene& scene, Mesh& mesh);
 /// Marks the pinned nodes. Throws InputError for a pin that names no node of this mesh.
 void pin_nodes(const Scene& scene, Mesh& mesh);
 
+/// Moves free nodes to where they start; springs keep the rest lengths of the places they were built at.
+void shuffle_nodes(const Start& start, Mesh& mesh);
+
 } // namespace hopmesh::scene

@@ -24,6 +24,12 @@ using Pin = std::variant<std::string, std::int64_t>;
 /// What a spring pulls with: its stretch times 2 alpha, or alpha whatever its length.
 enum class SpringLaw { linear, tension };
 
+/// Where free nodes start: their places as built, or a random way off along each axis, the same everywhere.
+struct Start {
+  double shuffle = 0; ///< m, at most, along each axis
+  std::int64_t seed = 1;
+};
+
 struct MeshSpec {
   std::optional<Grid> grid;        ///< exactly one of grid and file is set
   std::optional<std::string> file; ///< OBJ, path already resolved against the scene file's folder
@@ -37,6 +43,7 @@ struct MeshSpec {
   double mass = 1.0;      ///< kg per node
   std::optional<double> rest; ///< rest length of every spring; none: natural (as built)
   bool planar = false;        ///< two neurons a node, along x and z
+  Start start;
 };
 
 enum class Formulation { probe, incremental };

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 namespace hopmesh::scene {
 
@@ -53,6 +54,7 @@ class SceneReader {
     read_springs();
     read_pins();
     read_node();
+    read_start();
     read_motion();
     read_probe();
     read_incremental();
@@ -119,6 +121,12 @@ class SceneReader {
     constexpr Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};
     if (word) throw source_.error(*rest, "mesh.rest", length.words, nearest_name(*word, {"natural"}));
     mesh.rest = keys_.number(*rest, "mesh.rest", length);
+  }
+
+  void read_start() {
+    Start& start = scene_.mesh.start;
+    keys_.real("mesh.start.shuffle", start.shuffle, from_zero);
+    keys_.integer("mesh.start.seed", start.seed, 0, std::numeric_limits<std::int64_t>::max());
   }
 
   void read_motion() {

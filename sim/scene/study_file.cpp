@@ -72,6 +72,7 @@ class StudyReader {
     read_methods();
     read_times();
     read_axes();
+    check_methods();
     keys_.refuse_unknown();
     if (study_.combinations() > most_points)
       throw input_error(study_.path, 0, "axes", fmt::format("{} points", study_.combinations()),
@@ -137,6 +138,15 @@ class StudyReader {
                      [](const StudyAxis& a, const StudyAxis& b) { return a.line < b.line; });
   }
 
+  /// Methods are named once: by the study, or by one of its axes.
+  void check_methods() const {
+    int axes = study_.methods_line > 0;
+    for (const StudyAxis& axis : study_.axes)
+      if (const AxisPlace& place = axis.places.front(); place.method_line > 0 && axes++ > 0)
+        throw input_error(study_.path, place.method_line, "axes." + axis.name + ".method",
+                          "methods named twice", "either methods, or the method of one axis");
+  }
+
   bool in_combined(const std::string& path) const {
     for (auto dot = path.find('.', axes_table.size()); dot != std::string::npos;
          dot = path.find('.', dot + 1))
@@ -170,6 +180,12 @@ class StudyReader {
       throw source_.error(value, path, fmt::format("a list of {}, one a label", axis.places.size()));
     for (std::size_t k = 0; k < axis.places.size(); ++k) {
       AxisPlace& place = axis.places[k];
+      if (key == "method") {
+        const TomlValue& name = items ? (*items)[k] : value;
+        if (!name.as<std::string>()) throw source_.error(name, path, "names of methods, in quotes");
+        place.method = *name.as<std::string>(), place.method_line = value.line;
+        continue;
+      }
       const auto* pattern = value.as<std::string>();
       const std::string text =
           pattern ? in_toml_quotes(filled(*pattern, place.label)) : toml_text(items ? (*items)[k] : value);

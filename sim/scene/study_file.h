@@ -20,6 +20,8 @@ struct StudySetting {
 struct AxisPlace {
   std::string label;
   std::vector<StudySetting> settings;
+  std::string method; ///< that runs this place; empty: each of the study's methods
+  int method_line = 0;
 };
 
 struct StudyAxis {

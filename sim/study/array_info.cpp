@@ -84,31 +84,73 @@ FigureTable memory(const BuiltMesh& mesh, const spec::ArraySpec& array) {
            {"accumulators", kib(bits.accumulators)}}};
 }
 
+std::string formulation(const scene::Scene& scene) {
+  if (scene.motion.formulation == scene::Formulation::probe) return "probe: outputs are directions";
+  return "incremental, " + scene.incremental.rule +
+         (scene.is_static() ? ": outputs are scaled ways towards rest"
+                            : ": outputs are scaled changes of acceleration");
+}
+
 FigureTable motion(const scene::Scene& scene) {
-  const bool probe = scene.motion.formulation == scene::Formulation::probe;
-  return {"Motion",
-          {{"formulation", probe ? "probe: outputs are directions"
-                                 : "incremental, " + scene.incremental.rule +
-                                       ": outputs are scaled changes of acceleration"},
-           {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
-                                 scene.motion.time_step)},
-           {"expansions a step", fmt::format("{}", scene.relax.expansions)},
-           {"relaxed until",
-            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
-                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+  return {
+      "Motion",
+      {{"formulation", formulation(scene)},
+       {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
+                             scene.motion.time_step)},
+       {"start", scene.mesh.start.shuffle > 0 ? fmt::format("up to {} m off its place, seed {}",
+                                                            scene.mesh.start.shuffle, scene.mesh.start.seed)
+                                              : "as built, at rest"},
+       {"expansions a step", fmt::format("{}", scene.relax.expansions)},
+       {"relaxed until",
+        fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
+                    grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+}
+
+std::vector<record::Figure> forces_left_out(const scene::Scene& scene) {
+  std::vector<record::Figure> rows;
+  if (scene.force.gravity == scene::Vector3{0, 0, 0}) rows.push_back({"gravity", "none given"});
+  if (!scene.force.wind) rows.push_back({"wind", "none given"});
+  if (scene.force.drag == 0 && !scene.is_static()) rows.push_back({"drag of the air", "none given"});
+  if (scene.motion.friction == 1 && !scene.is_static()) rows.push_back({"friction", "a factor of 1: none"});
+  return rows;
+}
+
+std::vector<record::Figure> terms_left_out(const scene::Scene& scene) {
+  std::vector<record::Figure> rows;
+  if (scene.mesh.rest == 0.0)
+    rows.push_back({"error of the expansion", "rest length 0: the energy is quadratic"});
+  if (scene.motion.formulation == scene::Formulation::incremental) {
+    if (scene.is_static())
+      rows.push_back({"inertia, speed", "static: each step minimises springs and weight alone"});
+    else
+      rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
+    if (scene.motion.friction == 0 && !scene.is_static())
+      rows.push_back({"velocity", "friction 0: each step starts from rest"});
+    return rows;
+  }
+  rows.push_back({"inertia", "mass moves no node in the probe"});
+  if (scene.probe.acceleration_memory == 0)
+    rows.push_back({"acceleration before", "memory 0: each step probes anew"});
+  if (scene.probe.beta == 0) rows.push_back({"unit-length term", "beta 0: outputs of any length"});
+  return rows;
 }
 
 FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
   const std::size_t pinned = mesh.nodes() - mesh.cells(), n = mesh.components();
-  std::vector<record::Figure> rows{
-      {"pinned nodes", fmt::format("{}: no cell, {} neurons fewer", grouped(pinned), grouped(pinned * n))}};
+  std::vector<record::Figure> rows;
+  if (pinned)
+    rows.push_back(
+        {"pinned nodes", fmt::format("{}: no cell, {} neurons fewer", grouped(pinned), grouped(pinned * n))});
+  else
+    rows.push_back({"pins", "none given: every node has a cell"});
   std::size_t to_pinned = 0, among_pinned = 0;
   for (const auto& s : mesh.mesh().springs) {
     const int ends = mesh.mesh().pinned[s.node[0]] + mesh.mesh().pinned[s.node[1]];
     to_pinned += ends == 1;
     among_pinned += ends == 2;
   }
-  rows.push_back({"springs to pinned nodes", fmt::format("{}: in the bias, no link", grouped(to_pinned))});
+  if (to_pinned)
+    rows.push_back({"springs to pinned nodes", fmt::format("{}: in the bias, no link", grouped(to_pinned))});
   if (among_pinned)
     rows.push_back({"springs between pinned nodes", fmt::format("{}: no link", grouped(among_pinned))});
   const double kinds[] = {scene.mesh.structural, scene.mesh.shear, scene.mesh.bend};
@@ -116,12 +158,8 @@ FigureTable left_out(const scene::Scene& scene, const BuiltMesh& mesh) {
   for (int k = 0; k < 3; ++k)
     if (scene.mesh.grid && kinds[k] == 0) rows.push_back({names[k], "weight 0: not built"});
   if (n == 2) rows.push_back({"third neuron of a cell", "planar: y never moves"});
-  if (!scene.force.wind) rows.push_back({"wind", "none given"});
-  if (scene.force.drag == 0) rows.push_back({"drag of the air", "none given"});
-  if (scene.motion.formulation == scene::Formulation::incremental)
-    rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
-  else
-    rows.push_back({"inertia", "mass moves no node in the probe"});
+  for (const record::Figure& row : forces_left_out(scene)) rows.push_back(row);
+  for (const record::Figure& row : terms_left_out(scene)) rows.push_back(row);
   return {"Left out", rows};
 }
 

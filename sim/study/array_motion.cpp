@@ -109,7 +109,8 @@ StepRow ArrayMotion::advance() {
   if (check_) {
     using Clock = std::chrono::steady_clock;
     const auto began = Clock::now();
-    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale);
+    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, row.converged);
+    row.alternation = row.error->alternation;
     judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
   }
   row.hash = state_hash(memory_.now);

@@ -18,7 +18,8 @@ struct ReferenceError {
   double rms_output = 0;
   double energy_gap =
       0; ///< (E(V) - E(V_ref)) / (E(V0) - E(V_ref)), of the network's energy; 0 where nothing falls
-  double network = 0; ///< largest difference of a weight or bias, over the largest of them
+  double network = 0;     ///< largest difference of a weight or bias, over the largest of them
+  double alternation = 0; ///< of a step that did not come to rest: as in StepRow
 };
 
 /// One row of steps.csv.
@@ -32,6 +33,7 @@ struct StepRow {
   double max_stretch = 0;      ///< largest length / rest length (initial length where L = 0)
   std::uint64_t saturated = 0; ///< outputs at rest at +1 or -1
   bool converged = false;
+  double alternation = 0; ///< of a step that did not: 1 where outputs swing between two states for ever
   std::uint64_t bus_cycles = 0, clipped = 0;
   std::optional<ReferenceError> error;
   std::uint64_t hash = 0; ///< of positions, velocities, accelerations and V

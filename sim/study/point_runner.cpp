@@ -81,7 +81,6 @@ void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const
 StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, const RunResult& result) {
   StabilityFacts facts;
   facts.diverged = result.outcome == Outcome::diverged;
-  facts.synchronous = inputs.array.schedule == spec::Schedule::synchronous;
   facts.outputs = mesh.topology().neurons();
   const scene::Scene& scene = inputs.scene;
   facts.friction = scene.motion.friction / (1 + scene.force.drag * scene.motion.time_step);

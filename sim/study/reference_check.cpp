@@ -17,6 +17,15 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
   return order;
 }
 
+double alternation(const reference::Network& network, const reference::Order& order, const Vector& V) {
+  const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
+    return reference::relax(network, order, from, 0, sweeps).V;
+  };
+  const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
+  const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
+  return first > 0 && away < first / 2 ? last / first : 0;
+}
+
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::Motion motion = reference::motion_of(scene);
   if (array.output == spec::Output::binary) motion.output = reference::Output::binary;
@@ -57,8 +66,8 @@ reference::Network ReferenceCheck::expanded(const std::vector<double>& start, do
   return reference::network(mesh, reference::increment(mesh, motion_, state_), scale, V0);
 }
 
-ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start,
-                                     double scale) const {
+ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
+                                     bool rested) const {
   Vector V0;
   const reference::Network network = expanded(start, scale, V0);
   const Vector wanted =
@@ -72,6 +81,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const double fall = reference::network_energy(network, V0) - rest;
   if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
   error.network = network_difference(network, built);
+  if (!rested) error.alternation = alternation(network, order_, V);
   return error;
 }
 

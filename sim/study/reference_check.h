@@ -11,6 +11,13 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
 /// A scene's motion as the output stage of an array makes it.
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
 
+/// Does a network that does not come to rest swing between two states? Of what the next sweep changes, the
+/// share that is still done and undone `swings` later: 1 for ever, 0 for a walk in one direction or a swing
+/// that dies.
+inline constexpr std::uint32_t swings = 20; ///< even
+double alternation(const reference::Network& network, const reference::Order& order,
+                   const reference::Vector& V);
+
 class ReferenceCheck {
  public:
   ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
@@ -20,8 +27,9 @@ class ReferenceCheck {
   void begin(const StepState& state, const double* node_force);
   /// After it: the network that the firmware built about `start` and the outputs that the array came to.
   /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
-  /// the incremental formulation, at the array's own scale.
-  ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale) const;
+  /// the incremental formulation, at the array's own scale. `rested`: the array came to rest.
+  ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale,
+                       bool rested) const;
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;

@@ -55,7 +55,8 @@ Stability classify(const Rows& rows, const StabilityFacts& facts) {
   const auto unfinished = [](const StepRow& r) { return !r.converged; };
   if (facts.diverged) return Stability::blow_up;
   if (gains_energy(rows)) return Stability::energy_gain;
-  if (facts.synchronous && mostly(rows, unfinished)) return Stability::limit_cycle;
+  if (mostly(rows, [](const StepRow& r) { return r.alternation > cycle_share; }))
+    return Stability::limit_cycle;
   if (is_saturated(rows, facts.outputs)) return Stability::saturated;
   if (stalls(rows)) return Stability::lattice_stall;
   if (mostly(rows, unfinished)) return Stability::falsely_soft;

@@ -9,7 +9,7 @@ enum class Stability {
   stable,
   blow_up,       ///< diverged: no finite position, or a spring beyond most_stretch
   energy_gain,   ///< the energy of the last quarter is a multiple of that of the third
-  limit_cycle,   ///< synchronous neurons that mostly never came to rest
+  limit_cycle,   ///< outputs that mostly swing between two states and never come to rest
   saturated,     ///< most outputs stand at +1 or -1
   lattice_stall, ///< fixed point: nothing moves any more although the answer is far
   falsely_soft,  ///< mostly ended by max_sweeps: springs give way that should not
@@ -31,11 +31,12 @@ inline constexpr double most_of = 0.5;   ///< a share above this is "mostly"
 inline constexpr std::uint64_t stall_sweeps = 1;
 inline constexpr double stall_error = 0.05;  ///< rms of outputs against the reference
 inline constexpr double damped_share = 1e-3; ///< of the largest kinetic energy that friction would leave
+inline constexpr double cycle_share = 0.5;   ///< of a swing that is still there after 20 sweeps
 inline constexpr std::size_t least_rows = 8; ///< fewer say nothing of energy
 
 /// What the rows do not tell.
 struct StabilityFacts {
-  bool diverged = false, synchronous = false;
+  bool diverged = false;
   std::size_t outputs = 1;
   double friction = 1;
 };

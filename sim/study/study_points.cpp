@@ -51,12 +51,21 @@ scene::InputError placed(const scene::Study& study, std::size_t number, const st
   return scene::InputError(study.path + ": " + rest);
 }
 
+void check_method(const scene::Study& study, const std::string& name, int line, const std::string& key,
+                  const Methods& methods) {
+  if (std::find(methods.names.begin(), methods.names.end(), name) == methods.names.end())
+    throw scene::input_error(study.path, line, key, scene::in_quotes(name),
+                             fmt::format("{}", fmt::join(methods.names, ", ")),
+                             scene::nearest_name(name, methods.names));
+}
+
 void check_methods(const scene::Study& study, const Methods& methods) {
   for (const std::string& name : study.methods)
-    if (std::find(methods.names.begin(), methods.names.end(), name) == methods.names.end())
-      throw scene::input_error(study.path, study.methods_line, "methods", scene::in_quotes(name),
-                               fmt::format("{}", fmt::join(methods.names, ", ")),
-                               scene::nearest_name(name, methods.names));
+    check_method(study, name, study.methods_line, "methods", methods);
+  for (const scene::StudyAxis& axis : study.axes)
+    for (const scene::AxisPlace& place : axis.places)
+      if (place.method_line > 0)
+        check_method(study, place.method, place.method_line, "axes." + axis.name + ".method", methods);
 }
 
 void check_times(const scene::Study& study, const scene::MotionSpec& motion) {
@@ -96,6 +105,7 @@ Point point_of(const scene::Study& study, std::size_t number) {
   const std::vector<const scene::AxisPlace*> places = places_of(study, number);
   for (const scene::AxisPlace* place : places) {
     point.labels.push_back(place->label);
+    if (!place->method.empty()) point.method = place->method;
     for (const scene::StudySetting& s : place->settings)
       point.overrides.push_back(s.key + '=' + with_labels(s.text, study, places));
   }

@@ -24,7 +24,8 @@ TEST_P(CliScene, RunsAFewStepsAtEveryLevel) {
     GTEST_SKIP() << info.err; // its mesh is not part of this tree
   ASSERT_EQ(info.exit_code, 0) << info.err;
   for (const char* level : {"reference", "systemc"}) {
-    const fs::path r = results_of(GetParam() + " --steps 2 --no-check --level " + level, level);
+    const fs::path r =
+        results_of(GetParam() + " --steps 2 --set relax.max_sweeps=300 --no-check --level " + level, level);
     EXPECT_EQ(fault_of_results(r, 2, std::string(level) != "reference"), "");
   }
 }

@@ -27,6 +27,8 @@ TEST(SceneFile, readsEveryKey) {
   EXPECT_EQ(s.mesh.mass, 0.5);
   EXPECT_EQ(s.mesh.rest, 0.0);
   EXPECT_TRUE(s.mesh.planar);
+  EXPECT_EQ(s.mesh.start.shuffle, 0.03);
+  EXPECT_EQ(s.mesh.start.seed, 9);
 }
 
 TEST(SceneFile, readsEveryKeyOfTheMotion) {
@@ -59,6 +61,7 @@ TEST(SceneFile, fillsDefaultsIn) {
   EXPECT_EQ(s.mesh.bend, 0.0);
   EXPECT_TRUE(s.mesh.pinned.empty());
   EXPECT_FALSE(s.mesh.rest);
+  EXPECT_EQ(s.mesh.start.shuffle, 0.0);
   EXPECT_EQ(s.motion.steps, 400);
   EXPECT_EQ(s.probe.gamma, 4000.0);
   EXPECT_EQ(s.relax.max_sweeps, 300);

@@ -48,6 +48,19 @@ TEST(StudyFile, AnAxisWithLabelsSetsKeysTogether) {
   EXPECT_THAT(sets, ::testing::UnorderedElementsAre("formats.link=\"fixed<12,2>\"", "array.lanes=3"));
 }
 
+TEST(StudyFile, AnAxisMayNameTheMethods) {
+  const std::string axis = "[axes.solver]\nlabel = [\"a\", \"b\"]\nmethod = [\"engine\", \"rk4\"]\n";
+  const Study s = study_of(start + axis + "\"motion.steps\" = 3\n", "s.toml");
+  EXPECT_EQ(s.combinations(), 2u);
+  EXPECT_EQ(s.axes[0].places[1].method, "rk4");
+  EXPECT_EQ(s.axes[0].places[1].method_line, 4);
+  EXPECT_EQ(s.axes[0].places[1].settings.size(), 1u);
+  EXPECT_THAT(refusal(start + "methods = [\"engine\"]\n" + axis),
+              ::testing::HasSubstr("s.toml:5: axes.solver.method: found methods named twice"));
+  EXPECT_THAT(refusal(start + "[axes.a]\nlabel = [1]\nmethod = [7]\n"),
+              ::testing::HasSubstr("s.toml:4: axes.a.method: found 7, expected names of methods"));
+}
+
 TEST(StudyFile, MistakesAreToldByTheirLine) {
   EXPECT_THAT(refusal("name = \"x\"\n"), ::testing::HasSubstr("scene: found nothing"));
   EXPECT_THAT(refusal(start + "stpes = 3\n"), ::testing::HasSubstr("s.toml:2: stpes: found an unknown key"));

@@ -29,6 +29,8 @@ void expect_equal(const MeshSpec& a, const MeshSpec& b) {
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.rest, b.rest);
   EXPECT_EQ(a.planar, b.planar);
+  EXPECT_EQ(a.start.shuffle, b.start.shuffle);
+  EXPECT_EQ(a.start.seed, b.start.seed);
 }
 
 void expect_equal(const Scene& a, const Scene& b) {
