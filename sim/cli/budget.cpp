@@ -180,7 +180,7 @@ record::StackedBars picture_of(const Prepared& p, const Budget& budget) {
   bars.title = p.inputs.scene.name + ": where the distance from the truth comes from";
   bars.note = fmt::format("array {}; Δt = {} s", p.inputs.array.name, p.inputs.scene.motion.time_step);
   bars.x_label = "time, s", bars.y_label = "rms over nodes, m";
-  bars.stacked_title = "shares: a bar is as high as the whole";
+  bars.stacked_title = "shares: what is above 0 less what is below is the whole";
   bars.length_title = "each part by itself";
   bars.floor_name = "truth floor";
   for (const std::string& name : parts_of(budget)) bars.parts.push_back({name, {}, {}});

@@ -66,6 +66,7 @@ int program(int argc, char** argv) {
   cli::add_chart(app, exit_code);
   cli::add_stability(app, exit_code);
   cli::add_budget(app, exit_code);
+  cli::add_size(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

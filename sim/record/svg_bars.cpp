@@ -96,7 +96,7 @@ class Drawing {
 
   void stacked() {
     const double step = step_for(high_ - low_);
-    for (double k = std::ceil(low_ / step); k * step <= high_; ++k)
+    for (int k = static_cast<int>(std::ceil(low_ / step)); k * step <= high_; ++k)
       line_at(left, linear(k * step), fmt::format("{:.3g}", k * step));
     const double wide = 0.62 * panel / static_cast<double>(std::max<std::size_t>(1, bars_.x.size()));
     for (std::size_t k = 0; k < bars_.x.size(); ++k) bar(k, place(left, k) - wide / 2, wide);

@@ -1,5 +1,5 @@
-// Search for the least setting of a few whole-numbered knobs that still passes a test which takes time, can be
-// asked about several settings at once, and need not be monotone: less may pass by luck where more fails.
+// Search for the least setting of a few whole-numbered knobs that still passes a test which takes time, can
+// be asked about several settings at once, and need not be monotone: less may pass by luck where more fails.
 #pragma once
 
 #include <functional>
