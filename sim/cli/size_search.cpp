@@ -32,7 +32,11 @@ class Search {
   }
 
  private:
-  bool meets(const TrialRow& row) const { return row.status == "finished" && row.error <= goal_.error; }
+  std::string fails_by(const TrialRow& row) const {
+    if (row.status != "finished") return row.status;
+    if (row.error > goal_.error) return "error";
+    return row.sweeps > goal_.most_sweeps ? "sweeps" : "";
+  }
 
   /// Setting of the search over the knobs from `first` on -> the whole one.
   Setting whole(const Setting& part, std::size_t first) const {
@@ -74,7 +78,8 @@ class Search {
   Setting begin_of(std::size_t first, std::size_t end) {
     Setting start = found_.setting;
     if (first == study::k_threshold)
-      start[study::k_sweeps] = std::max<int>(1, static_cast<int>(trials_.row(start).most_sweeps));
+      start[study::k_sweeps] =
+          std::clamp(static_cast<int>(trials_.row(start).most_sweeps), 1, start[study::k_sweeps]);
     return part(start, first, end);
   }
 
@@ -84,7 +89,7 @@ class Search {
     std::vector<study::Trial> answers;
     const std::vector<TrialRow> rows = trials_.rows(settings);
     for (std::size_t k = 0; k < rows.size(); ++k)
-      answers.push_back({meets(rows[k]), rows[k].error, cost_of(settings[k], rows[k], formats)});
+      answers.push_back({fails_by(rows[k]).empty(), rows[k].error, cost_of(settings[k], rows[k], formats)});
     return answers;
   }
 
@@ -100,7 +105,7 @@ class Search {
 
   void add(const std::string& what, const std::string& knob, const Setting& setting) {
     const TrialRow row = trials_.row(setting);
-    found_.evidence.push_back({what, knob, setting, row, meets(row)});
+    found_.evidence.push_back({what, knob, setting, row, fails_by(row)});
   }
 
   void add_less(const Setting& at, std::size_t knob, int by) {
@@ -139,7 +144,7 @@ class Search {
       const bool better = !best || (goal_.time_per_step == 0 && product(k) < product(*best));
       if (fits && better) best = k;
       found_.evidence.push_back(
-          {"lanes", study::knob_names[study::k_lanes], settings[k], rows[k], meets(rows[k]) && fits});
+          {"lanes", study::knob_names[study::k_lanes], settings[k], rows[k], fits ? "" : "time"});
     }
     if (best) found_.setting = settings[*best];
     if (!best)

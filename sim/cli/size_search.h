@@ -7,8 +7,9 @@
 namespace hopmesh::cli {
 
 struct SizeGoal {
-  double error = 0;         ///< rms of positions at the end, m
-  double time_per_step = 0; ///< s, of the slowest step in the array; 0: the knee
+  double error = 0;              ///< rms of positions at the end, m
+  double time_per_step = 0;      ///< s, of the slowest step in the array; 0: the knee
+  std::uint64_t most_sweeps = 0; ///< in all: bits are not to be bought with sweeps
   double clock_mhz = 100;
   std::size_t most_taps = 1;
 };
@@ -18,7 +19,7 @@ struct SizeEvidence {
   std::string what, knob; ///< "size", "array file", "one less", "two less", "lanes"
   study::Setting setting;
   study::TrialRow row;
-  bool meets = false;
+  std::string fails_by; ///< "", or what it fails by: "error", "sweeps", "time", or how the motion ended
 };
 
 struct SizeFound {

@@ -73,11 +73,20 @@ std::optional<Setting> LeastSetting::next(const Setting& at, int by) {
   return best;
 }
 
+// A stride that succeeded is doubled, one that failed is halved; the end has failed at one less and at two.
 Setting LeastSetting::descended(Setting at, int stride) {
-  for (int by = stride; by >= 1; by /= 2)
-    while (const auto lower = next(at, by)) at = *lower;
-  while (const auto lower = next(at, 2)) at = descended(*lower, 1);
-  return at;
+  for (;;) {
+    if (const auto lower = next(at, stride)) {
+      at = *lower;
+      stride *= 2;
+    } else if (stride > 1) {
+      stride /= 2;
+    } else if (const auto lucky = next(at, 2)) {
+      at = *lucky;
+    } else {
+      return at;
+    }
+  }
 }
 
 std::optional<Setting> LeastSetting::cheaper_than(const Setting& at,

@@ -27,9 +27,9 @@ class LeastSetting {
       : knobs_(knobs), lowered_(std::move(lowered)), oracle_(std::move(oracle)) {}
 
   /// From a setting that should pass: all knobs together as low as they go, then knob by knob, each time the
-  /// one that saves most for the error it adds, in strides that halve down to 1. What passes at two less
-  /// though not at one less, or was seen to pass at less cost, is gone on from. None where neither `start`
-  /// nor any cut of it passes.
+  /// one that saves most for the error it adds, in strides that double where they pass and halve where they
+  /// do not. What passes at two less though not at one less, or was seen to pass at less cost, is gone on
+  /// from. None where neither `start` nor any cut of it passes.
   std::optional<Setting> from(const Setting& start);
 
   const Trial& trial(const Setting& setting) const { return seen_.at(setting); }
