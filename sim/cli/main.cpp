@@ -67,6 +67,8 @@ int program(int argc, char** argv) {
   cli::add_stability(app, exit_code);
   cli::add_solve(app, exit_code);
   cli::add_problem(app, exit_code);
+  cli::add_budget(app, exit_code);
+  cli::add_size(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -29,6 +29,11 @@ std::string shell_word(const std::string& word);
 /// A check for counts: an integer from `least` to `most` (a billion: as many steps as a scene may have),
 /// refused in words that fit a line.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most = 1'000'000'000);
+/// The same for a number above 0.
+CLI::Validator positive_number();
+
+/// out/NAME; a slash in a name must not lead elsewhere.
+std::string default_folder(std::string name);
 
 /// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
 struct Prepared {
@@ -77,5 +82,7 @@ void add_chart(CLI::App& program, int& exit_code);
 void add_stability(CLI::App& program, int& exit_code);
 void add_solve(CLI::App& program, int& exit_code);
 void add_problem(CLI::App& program, int& exit_code);
+void add_budget(CLI::App& program, int& exit_code);
+void add_size(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

@@ -29,12 +29,6 @@ std::string command_of(const RunOptions& o) {
   return "hopmesh run " + words_of(o.common) + " --level " + o.level;
 }
 
-// out/NAME; a slash in a name must not lead elsewhere.
-std::string default_folder(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '-');
-  return "out/" + (name == "." || name == ".." ? "scene" : name);
-}
-
 WaveRequest wave_of(const RunOptions& o) {
   WaveRequest wave = o.wave;
   if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))

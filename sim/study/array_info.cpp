@@ -177,6 +177,15 @@ MemoryBits memory_bits(const BuiltMesh& mesh, const spec::ArraySpec& array) {
           neurons * width(spec::accumulator_format(array, t.most_taps()))};
 }
 
+std::uint64_t multiplier_bits(const BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Formats& f = array.formats;
+  int neuron = array.lanes * f.weight.width * f.link.width + f.state.width * f.drive.width;
+  if (array.normaliser == spec::Normaliser::reciprocal)
+    neuron += spec::accumulator_format(array, t.most_taps()).width * array.reciprocal_bits;
+  return t.neurons() * static_cast<std::uint64_t>(neuron);
+}
+
 std::vector<FigureTable> array_info(const scene::Scene& scene, const BuiltMesh& mesh,
                                     const spec::ArraySpec& array) {
   const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);

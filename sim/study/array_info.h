@@ -21,6 +21,10 @@ struct MemoryBits {
 };
 MemoryBits memory_bits(const BuiltMesh& mesh, const spec::ArraySpec& array);
 
+/// What the array's multipliers multiply, in bits times bits: w L in each lane, R u, and s r where the
+/// normaliser is a reciprocal.
+std::uint64_t multiplier_bits(const BuiltMesh& mesh, const spec::ArraySpec& array);
+
 /// The tables as aligned text.
 std::string text_of(const std::vector<FigureTable>& tables);
 

@@ -12,32 +12,6 @@ namespace hopmesh::study {
 
 namespace {
 
-using Positions = std::vector<double>;
-
-double rms_distance(const Positions& a, const Positions& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  const std::size_t nodes = a.size() / 3;
-  return std::sqrt(sum / static_cast<double>(nodes));
-}
-
-/// Keeps the positions at the ends of a few steps.
-class Snapshots : public StepSink {
- public:
-  Snapshots(const std::vector<double>& times, double time_step) {
-    for (double time : times) wanted_.push_back(step_of_time(time, time_step));
-    at.resize(wanted_.size());
-  }
-  void step(const StepRow& row, const Motion& motion) override {
-    for (std::size_t k = 0; k < wanted_.size(); ++k)
-      if (row.step + 1 == wanted_[k]) at[k] = motion.positions();
-  }
-  std::vector<Positions> at; ///< empty where the motion did not come so far
-
- private:
-  std::vector<std::uint64_t> wanted_;
-};
-
 std::vector<Maybe> distances(const std::vector<Positions>& ours, const std::vector<Positions>& theirs) {
   std::vector<Maybe> all(ours.size());
   for (std::size_t k = 0; k < ours.size() && k < theirs.size(); ++k)
@@ -88,10 +62,6 @@ StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, cons
 }
 
 } // namespace
-
-std::uint64_t step_of_time(double time, double time_step) {
-  return static_cast<std::uint64_t>(std::llround(time / time_step));
-}
 
 PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop) {

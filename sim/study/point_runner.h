@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/scene/scene_file.h"
-#include "sim/study/simulation.h"
+#include "sim/study/snapshots.h"
 #include "sim/study/stability_class.h"
 
 #include <functional>
@@ -53,8 +53,5 @@ struct PointRow {
 /// what is a defect; a point that diverges is a row.
 PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop);
-
-/// The step at whose end a time is taken: the nearest, 1-based.
-std::uint64_t step_of_time(double time, double time_step);
 
 } // namespace hopmesh::study

@@ -17,9 +17,10 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
   return order;
 }
 
-double alternation(const reference::Network& network, const reference::Order& order, const Vector& V) {
+double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
+                   reference::Output output) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
-    return reference::relax(network, order, from, 0, sweeps).V;
+    return reference::relax(network, order, from, 0, sweeps, output).V;
   };
   const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
   const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
@@ -81,7 +82,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const double fall = reference::network_energy(network, V0) - rest;
   if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
   error.network = network_difference(network, built);
-  if (!rested) error.alternation = alternation(network, order_, V);
+  if (!rested) error.alternation = alternation(network, order_, V, motion_.output);
   return error;
 }
 

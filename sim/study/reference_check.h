@@ -16,7 +16,7 @@ reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& a
 /// that dies.
 inline constexpr std::uint32_t swings = 20; ///< even
 double alternation(const reference::Network& network, const reference::Order& order,
-                   const reference::Vector& V);
+                   const reference::Vector& V, reference::Output output = reference::Output::modified);
 
 class ReferenceCheck {
  public:

@@ -29,7 +29,7 @@ class CliHelp : public Cli {
 
 TEST_F(CliHelp, NamesEveryVerb) {
   for (const char* verb : {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart",
-                           "stability", "solve", "problem"})
+                           "stability", "solve", "problem", "budget", "size"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -59,6 +59,8 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
   expect_flags("info", {"toml"});
+  expect_flags("budget", {"steps", "time", "rest-sweeps", "out"});
+  expect_flags("size", {"error", "against", "time-per-step", "steps", "out"});
   expect_flags("vectors", {"step", "sweeps", "random", "seed", "out", "blank", "check", "level"});
 }
 

@@ -1,0 +1,140 @@
+#include "sim/study/sizing.h"
+
+#include "rtl_model/spec/array_rules.h"
+#include "sim/study/array_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+const char* const knob_names[knob_count] = {"formats.weight",  "formats.bias",     "formats.drive",
+                                            "formats.state",   "formats.link",     "array.reciprocal_bits",
+                                            "relax.threshold", "relax.max_sweeps", "array.lanes"};
+
+namespace {
+
+constexpr int widest_word = 32, narrowest_word = 4, widest_sum = 62; // rtl_model/spec/array_rules.h
+
+/// The formats of the first five knobs.
+spec::NumberFormat& format_of(spec::Formats& f, std::size_t knob) {
+  spec::NumberFormat* const all[] = {&f.weight, &f.bias, &f.drive, &f.state, &f.link};
+  return *all[knob];
+}
+
+int integer_bits_for(const SignalRange& seen) {
+  const double last_place = std::ldexp(1.0, -seen.format.fraction_bits());
+  const double least = static_cast<double>(seen.least) * last_place;
+  const double most = static_cast<double>(seen.largest) * last_place;
+  int bits = 1;
+  while (least < -std::ldexp(1.0, bits - 1) || most >= std::ldexp(1.0, bits - 1)) ++bits;
+  return bits;
+}
+
+} // namespace
+
+Sizing::Sizing(const scene::Inputs& inputs, const BuiltMesh& mesh)
+    : inputs_(inputs), mesh_(mesh), formats_(inputs.array.formats) {
+  if (!inputs.array.exact_accumulator)
+    throw scene::input_error("", 0, "formats.accumulator", inputs.array.formats.accumulator.text(),
+                             "\"exact\": its width follows from the others");
+}
+
+void Sizing::keep_integer_bits(const std::vector<SignalRange>& seen) {
+  for (const SignalRange& range : seen) {
+    const int needed = integer_bits_for(range);
+    if (range.signal == "weight")
+      formats_.weight.integer_bits = std::min(formats_.weight.integer_bits, needed);
+    if (range.signal == "bias") formats_.bias.integer_bits = std::min(formats_.bias.integer_bits, needed);
+  }
+}
+
+// Weight and link share what an exact sum may have behind its point.
+Setting Sizing::widest() const {
+  spec::Formats whole = formats_;
+  whole.weight.width = whole.weight.integer_bits, whole.link.width = whole.link.integer_bits;
+  whole.bias.width = whole.bias.integer_bits;
+  const int room = widest_sum - spec::exact_accumulator_format(whole, mesh_.topology().most_taps()).width;
+  const auto bits = [](int fraction, const spec::NumberFormat& f) {
+    return std::min(fraction, widest_word - f.integer_bits);
+  };
+  const int state = bits(room, formats_.state), weight = bits(room / 2, formats_.weight);
+  return {weight,
+          bits(room, formats_.bias),
+          bits(room, formats_.drive),
+          state,
+          std::min(state, bits(room - weight, formats_.link)),
+          widest_word,
+          scene_threshold,
+          static_cast<int>(inputs_.scene.relax.max_sweeps),
+          inputs_.array.lanes};
+}
+
+int Sizing::least(std::size_t knob) const {
+  if (knob == k_reciprocal) return narrowest_word;
+  if (knob == k_threshold) return 0;
+  if (knob > k_link) return 1;
+  spec::Formats f = formats_;
+  return std::max(1, narrowest_word - format_of(f, knob).integer_bits);
+}
+
+std::optional<Setting> Sizing::lowered(const Setting& from, std::size_t knob, int by) const {
+  if (knob == k_reciprocal && inputs_.array.normaliser != spec::Normaliser::reciprocal) return std::nullopt;
+  if (knob == k_threshold && inputs_.scene.relax.threshold == 0) return std::nullopt;
+  Setting lower = from;
+  lower[knob] -= by;
+  if (lower[knob] < least(knob)) return std::nullopt;
+  lower[k_link] = std::min(lower[k_link], lower[k_state]);
+  return lower;
+}
+
+spec::ArraySpec Sizing::array_of(const Setting& setting) const {
+  spec::ArraySpec array = inputs_.array;
+  array.formats = formats_;
+  for (std::size_t knob = k_weight; knob <= k_link; ++knob) {
+    spec::NumberFormat& format = format_of(array.formats, knob);
+    format.width = format.integer_bits + setting[knob];
+  }
+  if (array.normaliser == spec::Normaliser::reciprocal) array.reciprocal_bits = setting[k_reciprocal];
+  array.lanes = setting[k_lanes];
+  array.name = "size";
+  return array;
+}
+
+double Sizing::threshold_of(const Setting& setting) const {
+  return std::ldexp(inputs_.scene.relax.threshold, scene_threshold - setting[k_threshold]);
+}
+
+scene::Inputs Sizing::inputs_of(const Setting& setting) const {
+  scene::Inputs inputs{inputs_.scene, array_of(setting)};
+  inputs.scene.relax.threshold = threshold_of(setting);
+  inputs.scene.relax.max_sweeps = setting[k_sweeps];
+  return inputs;
+}
+
+double Sizing::silicon_bits(const Setting& setting) const {
+  const spec::ArraySpec array = array_of(setting);
+  return static_cast<double>(memory_bits(mesh_, array).total() + multiplier_bits(mesh_, array));
+}
+
+std::string Sizing::text_of(const Setting& setting, std::size_t knob) const {
+  if (knob == k_threshold) return fmt::format("{}", threshold_of(setting));
+  if (knob > k_link) return fmt::format("{}", setting[knob]);
+  spec::Formats f = array_of(setting).formats;
+  return format_of(f, knob).text();
+}
+
+std::vector<std::string> Sizing::overrides(const Setting& setting) const {
+  const Setting scenes = widest();
+  std::vector<std::string> words;
+  for (std::size_t knob = 0; knob < knob_count; ++knob) {
+    if (knob == k_reciprocal && inputs_.array.normaliser != spec::Normaliser::reciprocal) continue;
+    const bool relaxation = knob == k_threshold || knob == k_sweeps;
+    if (relaxation && setting[knob] == scenes[knob]) continue;
+    words.push_back(fmt::format("{}={}", knob_names[knob], text_of(setting, knob)));
+  }
+  return words;
+}
+
+} // namespace hopmesh::study

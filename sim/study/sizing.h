@@ -1,0 +1,60 @@
+// What `size` may lower on a scene's array, as whole numbers: fraction bits of each class, bits of the
+// reciprocal, then threshold and sweeps of the relaxation, then lanes.
+#pragma once
+
+#include "sim/scene/scene_file.h"
+#include "sim/study/array_port.h"
+#include "sim/study/built_mesh.h"
+#include "sim/study/least_setting.h"
+
+namespace hopmesh::study {
+
+/// Places in a Setting. Levels of formats are bits behind the point; a level of the threshold fewer doubles
+/// it, `scene_threshold` being the scene's own.
+enum Knob : std::size_t {
+  k_weight,
+  k_bias,
+  k_drive,
+  k_state,
+  k_link,
+  k_reciprocal,
+  k_threshold,
+  k_sweeps,
+  k_lanes
+};
+inline constexpr std::size_t knob_count = 9;
+inline constexpr int scene_threshold = 20;
+extern const char* const knob_names[knob_count];
+
+class Sizing {
+ public:
+  /// `array`: its rounding, normaliser and schedule stay; its accumulator must be exact (InputError).
+  Sizing(const scene::Inputs& inputs, const BuiltMesh& mesh);
+
+  /// Integer bits that the codes seen with the widest setting need, never more than the array had.
+  void keep_integer_bits(const std::vector<SignalRange>& seen);
+  /// As many bits as an array can have; relaxation and lanes of scene and array.
+  Setting widest() const;
+  /// Formats: the link never finer than the state, so a state takes the link with it. None below what can be
+  /// built, and where the array has no such part.
+  std::optional<Setting> lowered(const Setting& from, std::size_t knob, int by) const;
+
+  spec::ArraySpec array_of(const Setting& setting) const;
+  scene::Inputs inputs_of(const Setting& setting) const;
+  /// Memory and multipliers.
+  double silicon_bits(const Setting& setting) const;
+  /// The level as it stands in files: bits of the whole word, a threshold, a count.
+  std::string text_of(const Setting& setting, std::size_t knob) const;
+  /// --set words that make the setting of the scene with the array it was given.
+  std::vector<std::string> overrides(const Setting& setting) const;
+
+ private:
+  int least(std::size_t knob) const;
+  double threshold_of(const Setting& setting) const;
+
+  const scene::Inputs inputs_;
+  const BuiltMesh& mesh_;
+  spec::Formats formats_; ///< integer bits and modes
+};
+
+} // namespace hopmesh::study

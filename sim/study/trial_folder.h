@@ -1,0 +1,36 @@
+// Trials of a search, each in a safe file of its own: a search that was killed finds again what it had tried.
+#pragma once
+
+#include "sim/record/folder_lock.h"
+#include "sim/study/sizing.h"
+
+#include <cmath>
+
+namespace hopmesh::study {
+
+/// What a run with a setting came to.
+struct TrialRow {
+  std::string status = "crashed";            ///< finished, diverged, crashed
+  double error = HUGE_VAL;                   ///< rms of positions at the end, m
+  std::uint64_t sweeps = 0, most_sweeps = 0; ///< in all, and of the longest step
+  std::uint64_t cycles = 0, most_cycles = 0;
+};
+
+class TrialFolder {
+ public:
+  /// Takes up what is there; throws InputError where the folder belongs to other inputs (`hash`).
+  TrialFolder(std::filesystem::path folder, std::uint64_t hash);
+
+  std::optional<TrialRow> find(const Setting& setting) const;
+  /// Safe from any kill once this returns.
+  void keep(const Setting& setting, const TrialRow& row) const;
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path file_of(const Setting& setting) const;
+
+  std::filesystem::path folder_;
+  std::optional<record::FolderLock> lock_;
+};
+
+} // namespace hopmesh::study
