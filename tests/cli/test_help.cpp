@@ -29,7 +29,7 @@ class CliHelp : public Cli {
 
 TEST_F(CliHelp, NamesEveryVerb) {
   for (const char* verb :
-       {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart", "stability"})
+       {"run", "compare", "network", "solvers", "info", "vectors", "fuzz", "sweep", "chart", "stability"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -58,6 +58,7 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
                        "wave-window", "wave-cells"});
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
+  expect_flags("solvers", {"step", "gap", "max-sweeps", "out"});
   expect_flags("info", {"toml"});
   expect_flags("vectors", {"step", "sweeps", "random", "seed", "out", "blank", "check", "level"});
 }
