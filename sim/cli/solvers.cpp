@@ -96,9 +96,8 @@ std::string chart_of(const quadratic::Race& race, const std::vector<double>& gap
   return record::svg_of(chart);
 }
 
-/// Where the step could be reached: how the motion ended, else none.
-std::optional<int> walk(study::ReferenceMotion& motion, const Prepared& p, std::uint64_t step,
-                        study::StepState& before) {
+/// Up to and with the step; none where it was reached, else how the program ends.
+std::optional<int> walk(study::ReferenceMotion& motion, std::uint64_t step, study::StepState& before) {
   Progress progress(step + 1);
   study::RunResult result = study::simulate(motion, step, {&progress}, stop_requested);
   before = motion.state();
@@ -145,7 +144,7 @@ int solvers(SolversOptions& o) {
   study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array.schedule);
   catch_interrupts();
   study::StepState before;
-  if (const auto ended = walk(motion, p, static_cast<std::uint64_t>(o.step), before)) return *ended;
+  if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;
   const quadratic::Problem problem = problem_of(motion.last_step(), before, p);
   const quadratic::Race race =
       quadratic::race(problem, {o.gaps, static_cast<std::uint64_t>(o.max_sweeps)}, stop_requested);
