@@ -20,10 +20,11 @@ struct SolversOptions {
   std::int64_t step = 0, max_sweeps = 20000;
   std::vector<double> gaps{1e-2, 1e-4, 1e-6};
   std::string out;
+  bool cold = false;
 };
 
 /// The step's network, and where a network would start: the change of the step before (incremental), its
-/// direction (probe).
+/// direction (probe); or, cold, nowhere.
 quadratic::Problem problem_of(const reference::Step& step, const study::StepState& before,
                               const Prepared& p) {
   reference::Vector start = step.V0;
@@ -124,7 +125,8 @@ int report(const SolversOptions& o, const Prepared& p, const quadratic::Problem&
   print_table(race, o.gaps);
   if (o.out.empty()) return done;
   const std::filesystem::path folder = o.out;
-  std::string command = fmt::format("hopmesh solvers {} --step {}", words_of(o.common), o.step);
+  const std::string command =
+      fmt::format("hopmesh solvers {} --step {}{}", words_of(o.common), o.step, o.cold ? " --cold" : "");
   write_csv(race, o.gaps, folder / "solvers.csv");
   record::write_file(folder / "solvers.svg",
                      chart_of(race, o.gaps, title + ": ways to its network's answer", command));
@@ -145,7 +147,7 @@ int solvers(SolversOptions& o) {
   catch_interrupts();
   study::StepState before;
   if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;
-  const quadratic::Problem problem = problem_of(motion.last_step(), before, p);
+  const quadratic::Problem problem = problem_of(motion.last_step(), before, p, o.cold);
   const quadratic::Race race =
       quadratic::race(problem, {o.gaps, static_cast<std::uint64_t>(o.max_sweeps)}, stop_requested);
   if (stop_requested) return interrupted;
@@ -173,6 +175,7 @@ void add_solvers(CLI::App& program, int& exit_code) {
       ->delimiter(',')
       ->check(share());
   verb->add_option("--max-sweeps", o->max_sweeps, "where a method gives up (20000)")->check(whole_number(1));
+  verb->add_flag("--cold", o->cold, "start from zero, not from the step before");
   verb->add_option("--out", o->out, "folder for solvers.csv and solvers.svg");
   verb->footer("Example:\n  hopmesh solvers banner --step 10 --out out/solvers");
   verb->callback([o, &exit_code] { exit_code = solvers(*o); });

@@ -18,7 +18,8 @@ const std::vector<std::string> methods{"hopfield_coloured",
                                        "jacobi",
                                        "jacobi_damped",
                                        "gauss_seidel",
-                                       "sor_1.8",
+                                       "sor_1.8_sequential",
+                                       "sor_1.8_coloured",
                                        "accelerated_gradient",
                                        "conjugate_gradient",
                                        "admm_tenth",
@@ -88,6 +89,15 @@ TEST_F(CliSolvers, StepAndSetChangeTheNetwork) {
                     long_step = sweeps("--step 1 --set motion.time_step=0.05");
   EXPECT_NE(one, nine);
   EXPECT_GT(std::stoi(long_step), 3 * std::stoi(one)) << "five times the step: far more sweeps";
+}
+
+// At step 0 there is no step before; later its change is a better start than none.
+TEST_F(CliSolvers, ColdIsWithoutTheStepBefore) {
+  const auto sweeps = [this](const std::string& more) {
+    return table_of(small + more).column.at("sweeps@1e-06");
+  };
+  EXPECT_EQ(sweeps("--step 0"), sweeps("--step 0 --cold"));
+  EXPECT_NE(sweeps("--step 5"), sweeps("--step 5 --cold"));
 }
 
 TEST_F(CliSolvers, TheChartHasALineAMethod) {

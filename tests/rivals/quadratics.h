@@ -5,12 +5,14 @@
 #include "sim/rivals/quadratic/solver.h"
 #include "tests/reference/random_inputs.h"
 
+#include <Eigen/Dense>
 #include <cmath>
 
 namespace hopmesh::rivals::testing {
 
 namespace quadratic = rivals::quadratic;
 using quadratic::Problem;
+using quadratic::Vector;
 using reference::testing::Random;
 
 inline Problem problem_of(const Eigen::MatrixXd& W, const Vector& I, const Vector& start) {

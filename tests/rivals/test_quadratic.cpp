@@ -70,7 +70,9 @@ TEST(Quadratic, OneByOneTheEnergyNeverRises) {
         quadratic::reached({network.W, network.I, reference::testing::random_point(random, network.I.size()),
                             reference::testing::coloured(network.W)});
     if (p.I.size() == 0) continue;
-    for (const char* name : {"hopfield_sequential", "hopfield_coloured", "gauss_seidel", "sor_1.8"}) try {
+    for (const char* name : {"hopfield_sequential", "hopfield_coloured", "gauss_seidel", "sor_1.8_sequential",
+                             "sor_1.8_coloured"})
+      try {
         const auto solver = quadratic::make_solver(name, p, false);
         for (int sweep = 0; sweep < 20; ++sweep) {
           const double before = energy(p, solver->V());
@@ -103,22 +105,23 @@ TEST(Quadratic, WhatNeedsConvexitySaysSo) {
                                Vector::Constant(2, 0.1)); // along (1, 1) ever lower
   const quadratic::Race race = quadratic::race(p, {{1e-3}, 5000}, never);
   EXPECT_FALSE(race.answer.convex);
-  EXPECT_EQ(race.answer.V, Vector(Vector::Ones(2)));
+  EXPECT_LT((race.answer.V - Vector::Ones(2)).norm(), 1e-9);
   for (const quadratic::Course& course : race.courses) {
     const bool needs = course.name.find("gradient") != std::string::npos ||
                        course.name.rfind("admm", 0) == 0 || course.name == "projected_newton" ||
                        course.name == "cholesky";
-    if (needs)
+    if (needs) {
       EXPECT_THAT(course.failure, HasSubstr("needs a convex energy")) << course.name;
-    else
+    } else {
       EXPECT_EQ(course.failure, "") << course.name;
+    }
   }
 }
 
 TEST(Quadratic, ExactStepsNeedCurvatureOfTheirOwn) {
   const Problem p =
       problem_of((Eigen::Matrix2d() << 0, -1, -1, -1).finished(), Vector::Ones(2), Vector::Zero(2));
-  for (const char* name : {"gauss_seidel", "sor_1.8", "jacobi"})
+  for (const char* name : {"gauss_seidel", "sor_1.8_coloured", "jacobi"})
     EXPECT_THAT(run(name, p).failure, HasSubstr("needs every W_ii below 0")) << name;
 }
 
