@@ -59,6 +59,7 @@ int program(int argc, char** argv) {
   cli::add_run(app, exit_code);
   cli::add_compare(app, exit_code);
   cli::add_network(app, exit_code);
+  cli::add_solvers(app, exit_code);
   cli::add_info(app, exit_code);
   cli::add_vectors(app, exit_code);
   cli::add_fuzz(app, exit_code);

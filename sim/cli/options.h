@@ -74,6 +74,7 @@ Level make_level(const std::string& name, const Prepared& prepared, bool check, 
 void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_network(CLI::App& program, int& exit_code);
+void add_solvers(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_vectors(CLI::App& program, int& exit_code);
 void add_fuzz(CLI::App& program, int& exit_code);

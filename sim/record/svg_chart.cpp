@@ -242,8 +242,9 @@ std::string xml(const std::string& text) {
 }
 
 const char* chart_colour(std::size_t series) {
-  static constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-                                            "#6a4c93", "#7f7f7f", "#8c510a", "#a6a600", "#c51b7d", "#1b4d3e"};
+  static constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                            "#56b4e9", "#6a4c93", "#7f7f7f", "#8c510a", "#a6a600",
+                                            "#c51b7d", "#1b4d3e", "#000000", "#99582a", "#4361ee"};
   return colours[series % std::size(colours)];
 }
 

@@ -40,7 +40,7 @@ std::string svg_of(const Chart& chart);
 /// For text and attributes of XML.
 std::string xml(const std::string& text);
 
-/// Colours that stay apart for the colour-blind; they repeat after the eighth.
+/// Colours that stay apart for the colour-blind; they repeat after the fifteenth.
 const char* chart_colour(std::size_t series);
 
 } // namespace hopmesh::record

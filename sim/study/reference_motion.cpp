@@ -32,7 +32,8 @@ StepRow ReferenceMotion::advance() {
   row.time = static_cast<double>(state_.step) * motion_.time_step;
   row.sweeps = last_.relaxation.sweeps;
   row.converged = last_.relaxation.converged;
-  if (!row.converged) row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.output);
+  if (!row.converged)
+    row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.output);
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);

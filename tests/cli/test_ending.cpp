@@ -77,6 +77,7 @@ TEST_F(CliEnding, CtrlCClosesAWave) {
 TEST_F(CliEnding, CtrlCEndsACompareAndANetwork) {
   EXPECT_EQ(interrupted("compare flag-400", SIGINT).exit_code, 130);
   EXPECT_EQ(interrupted("network flag-400 --step 399 --out n", SIGINT).exit_code, 130);
+  EXPECT_EQ(interrupted("solvers flag-400 --step 399", SIGINT).exit_code, 130);
   EXPECT_TRUE(names_in(at("n")).empty());
 }
 
@@ -112,6 +113,7 @@ TEST_F(CliEnding, OutThatCannotBeWrittenIsRefusedBeforeTheRun) {
   EXPECT_EQ(content_of(at("file")), "mine");
   expect_refused(hopmesh("run two-nodes --out /proc/hopmesh"), "/proc/hopmesh: ");
   expect_refused(hopmesh("network two-nodes --step 0 --out /proc/hopmesh"), "/proc/hopmesh: ");
+  expect_refused(hopmesh("solvers two-nodes --step 1 --out /proc/hopmesh"), "/proc/hopmesh: ");
   if (geteuid() == 0) return; // root may write everywhere else
   fs::create_directory(at("locked"));
   fs::permissions(at("locked"), fs::perms::owner_read | fs::perms::owner_exec);

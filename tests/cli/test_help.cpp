@@ -28,8 +28,8 @@ class CliHelp : public Cli {
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb : {"run", "compare", "network", "info", "vectors", "fuzz", "sweep", "chart",
-                           "stability", "solve", "problem", "budget", "size"})
+  for (const char* verb : {"run", "compare", "network", "solvers", "info", "vectors", "fuzz", "sweep",
+                           "chart", "stability", "solve", "problem", "budget", "size"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -58,6 +58,7 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
                        "wave-window", "wave-cells"});
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
+  expect_flags("solvers", {"step", "gap", "max-sweeps", "cold", "out"});
   expect_flags("info", {"toml"});
   expect_flags("budget", {"steps", "time", "rest-sweeps", "out"});
   expect_flags("size", {"error", "against", "time-per-step", "steps", "out"});

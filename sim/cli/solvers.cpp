@@ -1,0 +1,184 @@
+// hopmesh solvers: other ways to the answer of one step's network, beside the network's own.
+#include "sim/cli/options.h"
+#include "sim/cli/progress.h"
+#include "sim/record/csv.h"
+#include "sim/record/svg_chart.h"
+#include "sim/rivals/quadratic/race.h"
+#include "sim/study/simulation.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::cli {
+
+namespace {
+
+namespace quadratic = rivals::quadratic;
+
+struct SolversOptions {
+  CommonOptions common;
+  std::int64_t step = 0, max_sweeps = 20000;
+  std::vector<double> gaps{1e-2, 1e-4, 1e-6};
+  std::string out;
+  bool cold = false;
+};
+
+/// The step's network, and where a network would start: the change of the step before (incremental), its
+/// direction (probe); or, cold, nowhere.
+quadratic::Problem problem_of(const reference::Step& step, const study::StepState& before,
+                              const Prepared& p) {
+  reference::Vector start = step.V0;
+  if (p.inputs.scene.motion.formulation == scene::Formulation::incremental) {
+    reference::State state;
+    state.acceleration = Eigen::Map<const reference::Vector>(
+        before.acceleration.data(), static_cast<Eigen::Index>(before.acceleration.size()));
+    start = reference::expansion_point(p.mesh->mesh(), state, step.scale);
+  }
+  return quadratic::reached(
+      {step.network.W, step.network.I, start, study::order_for(*p.mesh, spec::Schedule::coloured)});
+}
+
+std::string count_text(const std::optional<quadratic::Reached>& reached) {
+  return reached ? std::to_string(reached->sweeps) : "-";
+}
+
+std::string time_text(const std::optional<quadratic::Reached>& reached) {
+  return reached ? fmt::format("{:.3g}", 1e3 * reached->seconds) : "-";
+}
+
+void print_table(const quadratic::Race& race, const std::vector<double>& gaps) {
+  fmt::print("{:<22}", "");
+  for (const double gap : gaps) fmt::print("{:>9}", fmt::format("{:g}", gap));
+  fmt::print("  |");
+  for (const double gap : gaps) fmt::print("{:>9}", fmt::format("{:g}", gap));
+  fmt::print("  factorisations\n");
+  for (const quadratic::Course& course : race.courses) {
+    fmt::print("{:<22}", course.name);
+    for (const auto& reached : course.reached) fmt::print("{:>9}", count_text(reached));
+    fmt::print("  |");
+    for (const auto& reached : course.reached) fmt::print("{:>9}", time_text(reached));
+    fmt::print("  {}{}{}\n", course.factorisations, course.failure.empty() ? "" : "  ", course.failure);
+  }
+}
+
+void write_csv(const quadratic::Race& race, const std::vector<double>& gaps,
+               const std::filesystem::path& path) {
+  std::vector<std::string> columns{"method"};
+  for (const char* kind : {"sweeps", "cpu_seconds"})
+    for (const double gap : gaps) columns.push_back(fmt::format("{}@{:g}", kind, gap));
+  for (const char* name : {"factorisations", "sweeps_done", "sweeps_rising", "failure"})
+    columns.emplace_back(name);
+  record::CsvWriter out(path, columns);
+  for (const quadratic::Course& course : race.courses) {
+    out.cell(course.name);
+    for (const auto& reached : course.reached) reached ? out.cell(reached->sweeps) : out.cell("");
+    for (const auto& reached : course.reached) reached ? out.cell(reached->seconds) : out.cell("");
+    out.cell(course.factorisations).cell(course.sweeps).cell(course.rises).cell(course.failure).end_row();
+  }
+  out.commit();
+}
+
+// A gap below the last that counts is drawn a decade below it: exact answers have no place on a logarithm.
+std::string chart_of(const quadratic::Race& race, const std::vector<double>& gaps, const std::string& title,
+                     const std::string& command) {
+  record::Chart chart;
+  chart.title = title, chart.guides = false;
+  chart.x_label = "sweeps or iterations", chart.y_label = "energy left above the answer, of the start's";
+  for (const quadratic::Course& course : race.courses) {
+    record::ChartSeries series{course.name, {{}}};
+    for (const quadratic::Lap& lap : course.laps) {
+      const double gap = std::max(lap.gap, gaps.back() / 10);
+      series.ladders[0].push_back({static_cast<double>(lap.sweep), gap, false,
+                                   fmt::format("{}, sweep {}\ngap {:.3g}", course.name, lap.sweep, lap.gap),
+                                   command});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return record::svg_of(chart);
+}
+
+/// Up to and with the step; none where it was reached, else how the program ends.
+std::optional<int> walk(study::ReferenceMotion& motion, std::uint64_t step, study::StepState& before) {
+  Progress progress(step + 1);
+  study::RunResult result = study::simulate(motion, step, {&progress}, stop_requested);
+  before = motion.state();
+  result = study::simulate(motion, step + 1, {&progress}, stop_requested, std::move(result));
+  if (result.outcome == study::Outcome::interrupted) return interrupted;
+  if (result.rows.size() > step) return std::nullopt;
+  fmt::print("{}\n", result.sentence);
+  return differs;
+}
+
+int report(const SolversOptions& o, const Prepared& p, const quadratic::Problem& problem,
+           const quadratic::Race& race) {
+  const std::string title = fmt::format("{} step {}", p.inputs.scene.name, o.step);
+  if (race.courses.empty()) {
+    fmt::print("{}: the network starts at its rest; there is nothing to solve\n", title);
+    return differs;
+  }
+  fmt::print("{}: {} outputs, {} weights; {}\n", title, problem.I.size(), problem.W.nonZeros(),
+             race.answer.convex ? "convex, gaps to the exact answer"
+                                : "not convex, gaps to the lowest energy found");
+  fmt::print(
+      "sweeps, then processor milliseconds (shared cores: a guide), until the energy's gap is that part "
+      "of the start's\n");
+  print_table(race, o.gaps);
+  if (o.out.empty()) return done;
+  const std::filesystem::path folder = o.out;
+  const std::string command =
+      fmt::format("hopmesh solvers {} --step {}{}", words_of(o.common), o.step, o.cold ? " --cold" : "");
+  write_csv(race, o.gaps, folder / "solvers.csv");
+  record::write_file(folder / "solvers.svg",
+                     chart_of(race, o.gaps, title + ": ways to its network's answer", command));
+  fmt::print("Results\n  {}\n  {}\n", (folder / "solvers.csv").string(), (folder / "solvers.svg").string());
+  return done;
+}
+
+int solvers(SolversOptions& o) {
+  std::sort(o.gaps.rbegin(), o.gaps.rend());
+  if (const auto twice = std::adjacent_find(o.gaps.begin(), o.gaps.end()); twice != o.gaps.end())
+    throw scene::input_error("", 0, "--gap", fmt::format("{:g} twice", *twice), "each gap once");
+  const Prepared p = prepare(o.common);
+  if (o.step >= p.inputs.scene.motion.steps)
+    throw scene::input_error("", 0, "--step", std::to_string(o.step),
+                             fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
+  if (!o.out.empty()) record::check_writable(o.out, 1 << 20);
+  study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array.schedule);
+  catch_interrupts();
+  study::StepState before;
+  if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;
+  const quadratic::Problem problem = problem_of(motion.last_step(), before, p, o.cold);
+  const quadratic::Race race =
+      quadratic::race(problem, {o.gaps, static_cast<std::uint64_t>(o.max_sweeps)}, stop_requested);
+  if (stop_requested) return interrupted;
+  return report(o, p, problem, race);
+}
+
+CLI::Validator share() {
+  const auto judge = [](const std::string& text) {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value > 0 && value < 1) return std::string();
+    return fmt::format("found {}, expected a number above 0 and below 1", text);
+  };
+  return CLI::Validator(judge, "");
+}
+
+} // namespace
+
+void add_solvers(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<SolversOptions>();
+  CLI::App* verb =
+      program.add_subcommand("solvers", "other solvers of one step's network, beside its own rule");
+  add_common(*verb, o->common);
+  verb->add_option("--step", o->step, "the step, counted from 0")->required()->check(whole_number(0));
+  verb->add_option("--gap", o->gaps, "parts of the start's energy gap to be reached (1e-2,1e-4,1e-6)")
+      ->delimiter(',')
+      ->check(share());
+  verb->add_option("--max-sweeps", o->max_sweeps, "where a method gives up (20000)")->check(whole_number(1));
+  verb->add_flag("--cold", o->cold, "start from zero, not from the step before");
+  verb->add_option("--out", o->out, "folder for solvers.csv and solvers.svg");
+  verb->footer("Example:\n  hopmesh solvers banner --step 10 --out out/solvers");
+  verb->callback([o, &exit_code] { exit_code = solvers(*o); });
+}
+
+} // namespace hopmesh::cli
