@@ -29,14 +29,20 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
 
 void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMesh& mesh, PointRow& row) {
   double squares = 0;
-  bool judged = false;
+  std::vector<double> errors;
   for (const StepRow& step : result.rows) {
     row.sweeps += step.sweeps, row.cycles += step.cycles, row.bus_cycles += step.bus_cycles;
     row.largest_strain = std::max(row.largest_strain, step.max_strain);
-    if (step.error) judged = true, squares += step.error->rms_output * step.error->rms_output;
+    if (!step.error) continue;
+    errors.push_back(step.error->rms_output);
+    squares += step.error->rms_output * step.error->rms_output;
   }
   row.steps = result.rows.size();
-  if (judged) row.output_error = std::sqrt(squares / static_cast<double>(row.steps));
+  if (!errors.empty()) {
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    row.output_error = std::sqrt(squares / static_cast<double>(row.steps)), row.output_error_median = *middle;
+  }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
   if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
   if (row.cycles > 0) row.memory_bits = memory_bits(mesh, inputs.array).total();

@@ -43,7 +43,9 @@ struct PointRow {
   std::uint64_t multiplies = 0; ///< of all sweeps
   double array_seconds = 0, host_seconds = 0, largest_strain = 0;
   double omega = 0;                          ///< 1/s, of the stiffest wave of the mesh at the start
-  Maybe output_error, position_error;        ///< rms; the latter in m, at the end, of the free motions
+  Maybe output_error;                        ///< rms over all steps and neurons
+  Maybe output_error_median;                 ///< median over steps of the rms over neurons
+  Maybe position_error;                      ///< rms at the end, of the free motions, m
   std::vector<Maybe> reference_at, truth_at; ///< rms of positions at the stated times, m
   std::vector<Maybe> floor_at;               ///< below which truth_at means nothing
   std::string sentence;

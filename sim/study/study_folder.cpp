@@ -23,7 +23,7 @@ void write(record::CsvWriter& table, const Point& point, const PointRow& row) {
   table.cell(point.number);
   for (const std::string& label : point.labels) table.cell(label);
   table.cell(point.method).cell(row.status).cell(name_of(row.stability));
-  cell(table, row.output_error), cell(table, row.position_error);
+  cell(table, row.output_error), cell(table, row.output_error_median), cell(table, row.position_error);
   for (const Maybe& error : row.reference_at) cell(table, error);
   for (const Maybe& error : row.truth_at) cell(table, error);
   for (const Maybe& floor : row.floor_at) cell(table, floor);
@@ -37,7 +37,8 @@ void write(record::CsvWriter& table, const Point& point, const PointRow& row) {
 std::vector<std::string> result_columns(const scene::Study& study) {
   std::vector<std::string> columns{"point"};
   for (const scene::StudyAxis& axis : study.axes) columns.push_back(axis.name);
-  for (const char* name : {"method", "status", "class", "output_error", "position_error"})
+  for (const char* name :
+       {"method", "status", "class", "output_error", "output_error_median", "position_error"})
     columns.emplace_back(name);
   for (const char* kind : {"reference_error", "truth_error", "truth_floor"})
     for (double time : study.times) columns.push_back(fmt::format("{}@{}", kind, time));
