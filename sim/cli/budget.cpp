@@ -74,17 +74,16 @@ scene::Scene at_rest_scene(const BudgetOptions& o, scene::Scene scene) {
 /// Motions keep references to scene parts of their own only: `p` and the level outlive them.
 std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Level& array) {
   const scene::Scene& scene = p.inputs.scene;
-  const auto schedule = p.inputs.array.schedule;
   std::vector<Link> chain;
   const std::shared_ptr<study::Motion> run(std::shared_ptr<void>(), array.motion.get());
   chain.push_back({fmt::format("array {}", p.inputs.array.name), "quantisation", run, {}});
   chain.push_back({"reference, the same sweeps at most and threshold",
                    "unfinished relaxation",
-                   std::make_shared<study::ReferenceMotion>(scene, *p.mesh, schedule),
+                   std::make_shared<study::ReferenceMotion>(scene, *p.mesh, p.inputs.array),
                    {}});
   chain.push_back({"reference, relaxed to rest",
                    "formulation",
-                   std::make_shared<study::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, schedule),
+                   std::make_shared<study::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
                    {}});
   if (!is_probe(p))
     chain.push_back({scene.incremental.rule + ", each step solved exactly",

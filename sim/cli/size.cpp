@@ -39,7 +39,7 @@ struct Target {
 
 Target target_of(const SizeOptions& o, const Prepared& p, const fs::path& folder) {
   const scene::MotionSpec& motion = p.inputs.scene.motion;
-  study::ReferenceMotion reference(p.inputs.scene, *p.mesh, p.inputs.array.schedule);
+  study::ReferenceMotion reference(p.inputs.scene, *p.mesh, p.inputs.array);
   Progress progress(static_cast<std::uint64_t>(motion.steps));
   const study::RunResult result =
       study::simulate(reference, static_cast<std::uint64_t>(motion.steps), {&progress}, stop_requested);

@@ -32,7 +32,7 @@ quadratic::Problem problem_of(const reference::Step& step, const study::StepStat
     reference::State state;
     state.acceleration = Eigen::Map<const reference::Vector>(
         before.acceleration.data(), static_cast<Eigen::Index>(before.acceleration.size()));
-    start = reference::expansion_point(p.mesh->mesh(), state, step.scale);
+    start = reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
   }
   return quadratic::reached(
       {step.network.W, step.network.I, start, study::order_for(*p.mesh, spec::Schedule::coloured)});
@@ -143,7 +143,7 @@ int solvers(SolversOptions& o) {
     throw scene::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   if (!o.out.empty()) record::check_writable(o.out, 1 << 20);
-  study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array.schedule);
+  study::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
   catch_interrupts();
   study::StepState before;
   if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;

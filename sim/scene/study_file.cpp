@@ -157,7 +157,7 @@ class StudyReader {
   void read_plain(const TomlValue& value, const std::string& path, const std::string& key) {
     StudyAxis axis{key, value.line, {}};
     for (const TomlValue& item : list_at(value, path))
-      axis.places.push_back({label_of(item), {{key, toml_text(item), value.line}}, "", 0});
+      axis.places.push_back({label_of(item), {{key, toml_text(item), value.line}}, {}, 0});
     study_.axes.push_back(std::move(axis));
   }
 
@@ -165,7 +165,7 @@ class StudyReader {
     const TomlValue& labels = *source_.find(table + ".label");
     StudyAxis axis{name, labels.line, {}};
     for (const TomlValue& item : list_at(labels, table + ".label"))
-      axis.places.push_back({label_of(item), {}, "", 0});
+      axis.places.push_back({label_of(item), {}, {}, 0});
     const std::string below = table + '.';
     for (const auto& [path, value] : source_.values())
       if (path.compare(0, below.size(), below) == 0 && path != table + ".label" && !value.as<TomlTable>())

@@ -80,6 +80,26 @@ TEST_F(CliInfo, FollowsTheScene) {
   EXPECT_EQ(row(out, "sweep"), "13"); // 2 (2 + 2 + 2) + 1
 }
 
+TEST_F(CliInfo, SaysWhatEachSceneLeavesOut) {
+  const auto left_out = [this](const std::string& scene, const std::string& name) {
+    return row(good("info " + scene).out, name);
+  };
+  EXPECT_EQ(left_out("free-net", "pins"), "none given: every node has a cell");
+  EXPECT_EQ(left_out("free-net", "drag of the air"), "none given");
+  EXPECT_EQ(left_out("free-net", "start"), "up to 0.005 m off its place, seed 1");
+  EXPECT_EQ(left_out("chain", "shear springs"), "weight 0: not built");
+  EXPECT_EQ(left_out("chain", "third neuron of a cell"), "planar: y never moves");
+  EXPECT_EQ(left_out("chain", "wind"), "none given");
+  EXPECT_EQ(left_out("net", "error of the expansion"), "rest length 0: the energy is quadratic");
+  EXPECT_EQ(left_out("cloth-rest", "inertia, speed"), "static: each step minimises springs and weight alone");
+  EXPECT_EQ(left_out("banner", "friction"), "a factor of 1: none");
+  EXPECT_EQ(left_out("flag-400", "acceleration before"), "memory 0: each step probes anew");
+  EXPECT_EQ(left_out("flag-400-literal", "acceleration before"), "no row acceleration before");
+  EXPECT_EQ(left_out("two-nodes --set force.gravity=[0,0,0]", "gravity"), "none given");
+  EXPECT_EQ(left_out("two-nodes --set probe.beta=0", "unit-length term"), "beta 0: outputs of any length");
+  EXPECT_EQ(left_out("banner --set motion.friction=0", "velocity"), "friction 0: each step starts from rest");
+}
+
 TEST_F(CliInfo, TomlGivesScenesAndArraysBack) {
   const std::string changes = " --steps 3 --set probe.gamma=123.25 --set mesh.pinned=[0] --set array.lanes=2";
   const std::string toml = good("info two-nodes --toml --array byte --set motion.steps=3 --set "
