@@ -223,14 +223,14 @@ int search(const SizeOptions& o, const Prepared& p, const fs::path& folder, cons
   return done;
 }
 
-int size(SizeOptions o) {
+int size(const SizeOptions& o) {
+  catch_interrupts();
   Prepared p = prepare(o.common);
   if (o.steps > 0) p.inputs.scene.motion.steps = o.steps;
   const study::Sizing checked(p.inputs, *p.mesh);                    // refuses before anything is written
   if (o.against == "truth") rivals::surroundings_of(p.inputs.scene); // so does this
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-size") : o.out;
   const study::TrialFolder kept(folder, hash_of(o, p));
-  catch_interrupts();
   try {
     return search(o, p, folder, kept);
   } catch (const SearchStopped&) {

@@ -81,13 +81,32 @@ std::vector<double> Table::numbers(const std::string& name) const {
   return values;
 }
 
+namespace {
+
+/// Cells of a line; commas in "quotes" part nothing.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+} // namespace
+
 Table read_table(const std::filesystem::path& path) {
   Table table;
   const auto lines = lines_of(content_of(path));
   table.header = split(lines.at(0), ',');
   for (const std::string& name : table.header) table.column[name];
   for (std::size_t k = 1; k < lines.size(); ++k) {
-    const auto cells = split(lines[k], ',');
+    const auto cells = cells_of(lines[k]);
     if (cells.size() != table.header.size()) throw std::runtime_error("row " + lines[k]);
     for (std::size_t c = 0; c < cells.size(); ++c) table.column[table.header[c]].push_back(cells[c]);
   }

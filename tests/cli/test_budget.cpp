@@ -99,7 +99,7 @@ TEST_F(CliBudget, SaysWhereSweepsEndedAStep) {
 TEST_F(CliBudget, ADivergedMotionIsTold) {
   const Finished f = hopmesh("budget two-nodes --set probe.gamma=1e9 --out b");
   EXPECT_EQ(f.exit_code, 1) << f.err;
-  EXPECT_THAT(f.out, HasSubstr("array custom: The motion diverged in step"));
+  EXPECT_THAT(f.out, HasSubstr("array guarded: The motion diverged in step"));
 }
 
 TEST_F(CliBudget, RefusesInOneLine) {
