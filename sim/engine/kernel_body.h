@@ -35,7 +35,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     }
 
     /// All of the sums that does not wait for the cells' own neurons: neighbours, own z, and x's own inputs.
-    void load(const KernelArgs& a, std::size_t block) {
+    [[gnu::always_inline]] void load(const KernelArgs& a, std::size_t block) {
       live = true;
       slot = 16 * block;
       w = a.weight + a.first_weight[block];
