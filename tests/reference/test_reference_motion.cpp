@@ -41,7 +41,8 @@ TEST(ReferenceMotion, IsReadFromTheScene) {
   scene.motion = {scene::Formulation::probe, 0.25, 10, 0.75};
   scene.probe = {11, 12, 0.5, "all", "acceleration"};
   scene.relax = {1e-3, 77, 3};
-  scene.force = {{1, 2, 3}, scene::Vector3{10, 20, 30}};
+  scene.force.gravity = {1, 2, 3};
+  scene.force.wind = scene::Vector3{10, 20, 30};
   Motion motion = motion_of(scene);
   EXPECT_EQ(motion.time_step, 0.25);
   EXPECT_EQ(motion.friction, 0.75);
