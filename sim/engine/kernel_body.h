@@ -130,7 +130,6 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     {Kernel<Isa>::template fire<P, how, false, false>, Kernel<Isa>::template fire<P, how, false, true>},     \
         {Kernel<Isa>::template fire<P, how, true, false>, Kernel<Isa>::template fire<P, how, true, true>},   \
   }
-
 #define HM_CELLS(P)                                                                                          \
   {                                                                                                          \
     HM_KERNELS(P, Normalise::multiply), HM_KERNELS(P, Normalise::scale), HM_KERNELS(P, Normalise::divide),   \
