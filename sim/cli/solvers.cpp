@@ -25,17 +25,21 @@ struct SolversOptions {
 
 /// The step's network, and where a network would start: the change of the step before (incremental), its
 /// direction (probe); or, cold, nowhere.
-quadratic::Problem problem_of(const reference::Step& step, const study::StepState& before,
-                              const Prepared& p) {
+quadratic::Problem problem_of(const reference::Step& step, const study::StepState& before, const Prepared& p,
+                              bool cold) {
   reference::Vector start = step.V0;
-  if (p.inputs.scene.motion.formulation == scene::Formulation::incremental) {
+  if (cold) {
+    start.setZero();
+  } else if (p.inputs.scene.motion.formulation == scene::Formulation::incremental) {
     reference::State state;
     state.acceleration = Eigen::Map<const reference::Vector>(
         before.acceleration.data(), static_cast<Eigen::Index>(before.acceleration.size()));
     start = reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
   }
-  return quadratic::reached(
-      {step.network.W, step.network.I, start, study::order_for(*p.mesh, spec::Schedule::coloured)});
+  std::vector<std::uint32_t> component(static_cast<std::size_t>(start.size()));
+  for (std::size_t i = 0; i < component.size(); ++i) component[i] = i % p.mesh->components();
+  return quadratic::reached({step.network.W, step.network.I, start,
+                             study::order_for(*p.mesh, spec::Schedule::coloured), component});
 }
 
 std::string count_text(const std::optional<quadratic::Reached>& reached) {

@@ -15,9 +15,18 @@ using quadratic::Problem;
 using quadratic::Vector;
 using reference::testing::Random;
 
+/// Its neurons stand for two components in turn.
 inline Problem problem_of(const Eigen::MatrixXd& W, const Vector& I, const Vector& start) {
   const quadratic::Weights sparse = W.sparseView();
-  return {sparse, I, start, reference::testing::coloured(sparse)};
+  std::vector<std::uint32_t> component;
+  for (Eigen::Index i = 0; i < I.size(); ++i) component.push_back(i % 2);
+  return {sparse, I, start, reference::testing::coloured(sparse), component};
+}
+
+/// One of random signs and curvatures, and a start anywhere.
+inline Problem random_problem(Random& random, Eigen::Index n) {
+  const auto network = reference::testing::random_network(random, n);
+  return quadratic::reached(problem_of(network.W, network.I, reference::testing::random_point(random, n)));
 }
 
 /// H = -W positive definite; I pulls `pull` times as hard as a curvature of 1 holds.

@@ -65,13 +65,10 @@ TEST(Quadratic, EverySolverComesToTheAnswer) {
 TEST(Quadratic, OneByOneTheEnergyNeverRises) {
   Random random(14);
   for (int k = 0; k < 100; ++k) {
-    const auto network = reference::testing::random_network(random, 2 + random.below(12));
-    const Problem p =
-        quadratic::reached({network.W, network.I, reference::testing::random_point(random, network.I.size()),
-                            reference::testing::coloured(network.W)});
+    const Problem p = random_problem(random, 2 + random.below(12));
     if (p.I.size() == 0) continue;
     for (const char* name : {"hopfield_sequential", "hopfield_coloured", "gauss_seidel", "sor_1.8_sequential",
-                             "sor_1.8_coloured"})
+                             "sor_1.8_by_component"})
       try {
         const auto solver = quadratic::make_solver(name, p, false);
         for (int sweep = 0; sweep < 20; ++sweep) {
@@ -121,7 +118,7 @@ TEST(Quadratic, WhatNeedsConvexitySaysSo) {
 TEST(Quadratic, ExactStepsNeedCurvatureOfTheirOwn) {
   const Problem p =
       problem_of((Eigen::Matrix2d() << 0, -1, -1, -1).finished(), Vector::Ones(2), Vector::Zero(2));
-  for (const char* name : {"gauss_seidel", "sor_1.8_coloured", "jacobi"})
+  for (const char* name : {"gauss_seidel", "sor_1.8_by_component", "jacobi"})
     EXPECT_THAT(run(name, p).failure, HasSubstr("needs every W_ii below 0")) << name;
 }
 
@@ -129,10 +126,7 @@ TEST(Quadratic, ExactStepsNeedCurvatureOfTheirOwn) {
 TEST(Quadratic, NobodyIsBelowTheBestFound) {
   Random random(15);
   for (int k = 0; k < 25; ++k) {
-    const auto network = reference::testing::random_network(random, 4 + random.below(8));
-    const Problem p =
-        quadratic::reached({network.W, network.I, reference::testing::random_point(random, network.I.size()),
-                            reference::testing::coloured(network.W)});
+    const Problem p = random_problem(random, 4 + random.below(8));
     if (p.I.size() == 0) continue;
     const quadratic::Race race = quadratic::race(p, {{1e-3, 1e-6}, 2000}, never);
     for (const quadratic::Course& course : race.courses)
@@ -192,6 +186,7 @@ TEST(Quadratic, NeuronsThatNothingReachesAreLeftOut) {
   EXPECT_EQ(small.I, Vector(Eigen::Vector2d(1, 2)));
   EXPECT_EQ(small.start, Vector(Eigen::Vector2d(0.5, -1)));
   EXPECT_EQ(small.colours, (quadratic::Order{{0}, {1}}));
+  EXPECT_EQ(small.component, (std::vector<std::uint32_t>{0, 1}));
 }
 
 } // namespace

@@ -23,8 +23,7 @@ Problem sheet_network(double k, double peak) {
   const reference::Increment about = reference::increment(mesh, motion, state);
   const auto at_scale = [&](double scale) {
     const auto network = reference::network(mesh, about, scale, Vector::Zero(state.velocity.size()));
-    return quadratic::reached(
-        {network.W, network.I, Vector::Zero(state.velocity.size()), reference::testing::coloured(network.W)});
+    return quadratic::reached(problem_of(network.W, network.I, Vector::Zero(state.velocity.size())));
   };
   constexpr double far = 1e6;
   const double largest = quadratic::best_answer(at_scale(far)).V.lpNorm<Eigen::Infinity>();

@@ -48,13 +48,24 @@ TEST(QuadraticRecurrence, HopfieldDownwards) {
 TEST(QuadraticRecurrence, ExactSteps) {
   expect_after("gauss_seidel", 1, 1. / 4, 3. / 8);
   expect_after("gauss_seidel", 2, 5. / 32, 27. / 64);
-  for (const char* name : {"sor_1.8_sequential", "sor_1.8_coloured"}) {
+  for (const char* name : {"sor_1.8_sequential", "sor_1.8_by_component"}) {
     expect_after(name, 1, 0.45, 0.495);
     expect_after(name, 2, 0.45 - 1.8 * 1.295 / 4, 0.495 + 0.9 * (1 + 0.13275 - 0.99));
   }
   expect_after("jacobi", 1, 1. / 4, 1. / 2);
   expect_after("jacobi", 2, 1. / 8, 3. / 8);
   expect_after("jacobi_damped", 1, 1. / 8, 1. / 4);
+}
+
+// Three neurons of components 0, 1, 0: the third fires before the second. H = [[1, 0, .5], [0, 1, .5], [.5,
+// .5, 1]].
+TEST(QuadraticRecurrence, ComponentByComponent) {
+  const Eigen::Matrix3d H = (Eigen::Matrix3d() << 1, 0, 0.5, 0, 1, 0.5, 0.5, 0.5, 1).finished();
+  const Problem p = problem_of(-H, Eigen::Vector3d(0.1, 0.1, 0.1), Vector::Zero(3));
+  const double first = 0.18, third = 1.8 * (0.1 - first / 2), second = 1.8 * (0.1 - third / 2);
+  EXPECT_LT((after("sor_1.8_by_component", p, 1) - Eigen::Vector3d(first, second, third)).norm(), 1e-15);
+  const double in_turn = 1.8 * (0.1 - (first + first) / 2);
+  EXPECT_LT((after("sor_1.8_sequential", p, 1) - Eigen::Vector3d(first, first, in_turn)).norm(), 1e-15);
 }
 
 TEST(QuadraticRecurrence, ExactStepsStopAtTheBox) {

@@ -19,12 +19,13 @@ std::vector<Eigen::Index> numbers_of_reached(const Problem& problem, Eigen::Inde
 Problem reached(const Problem& problem) {
   Eigen::Index count = 0;
   const auto number = numbers_of_reached(problem, count);
-  Problem small{Weights(count, count), Vector(count), Vector(count), {}};
+  Problem small{Weights(count, count), Vector(count), Vector(count), {}, {}};
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < problem.I.size(); ++i) {
     if (number[i] < 0) continue;
     small.I[number[i]] = problem.I[i];
     small.start[number[i]] = problem.start[i];
+    small.component.push_back(problem.component[i]);
     for (Weights::InnerIterator w(problem.W, i); w; ++w)
       if (number[w.col()] >= 0) entries.emplace_back(number[i], number[w.col()], w.value());
   }

@@ -16,7 +16,8 @@ using Order = std::vector<std::vector<std::uint32_t>>;
 struct Problem {
   Weights W; ///< symmetric
   Vector I, start;
-  Order colours; ///< every neuron once; those of a phase share no weight
+  Order colours;                        ///< every neuron once; those of a phase share no weight
+  std::vector<std::uint32_t> component; ///< of its node, that a neuron stands for
 };
 
 /// The same without the neurons that nothing reaches (those of pinned nodes), the start within the box.

@@ -1,6 +1,7 @@
 // Names, and what each stands for.
 #include "sim/rivals/quadratic/solvers.h"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -10,6 +11,15 @@ namespace {
 Order one_by_one(const Problem& problem) {
   Order order;
   for (Eigen::Index i = 0; i < problem.I.size(); ++i) order.push_back({static_cast<std::uint32_t>(i)});
+  return order;
+}
+
+/// All x, then all y, all z.
+Order by_component(const Problem& problem) {
+  Order order = one_by_one(problem);
+  std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    return problem.component[a[0]] < problem.component[b[0]];
+  });
   return order;
 }
 
@@ -37,7 +47,7 @@ const std::vector<Entry>& entries() {
       {"jacobi_damped", true, [](P p) { return make_neurons(p, Rule::exact, 0.5, all_at_once(p)); }},
       {"gauss_seidel", true, [](P p) { return make_neurons(p, Rule::exact, 1, one_by_one(p)); }},
       {"sor_1.8_sequential", true, [](P p) { return make_neurons(p, Rule::exact, 1.8, one_by_one(p)); }},
-      {"sor_1.8_coloured", true, [](P p) { return make_neurons(p, Rule::exact, 1.8, p.colours); }},
+      {"sor_1.8_by_component", true, [](P p) { return make_neurons(p, Rule::exact, 1.8, by_component(p)); }},
       {"accelerated_gradient", false, make_accelerated_gradient},
       {"conjugate_gradient", false, make_conjugate_gradient},
       {"admm_tenth", false, [](P p) { return make_admm(p, 0.1); }},
