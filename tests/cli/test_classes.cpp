@@ -11,10 +11,9 @@ namespace {
 class CliClass : public Cli {
  protected:
   /// The class that `hopmesh stability` would give a scene with these keys ("key = value" a line).
-  std::string class_of(const std::string& scene, const std::string& method, const std::string& keys,
-                       const std::string& array = "guarded") {
-    std::string study = fmt::format(
-        "scene = \"{}\"\narray = \"{}\"\nmethods = [\"{}\"]\n[axes.a]\nlabel = [1]\n", scene, array, method);
+  std::string class_of(const std::string& scene, const std::string& method, const std::string& keys) {
+    std::string study =
+        fmt::format("scene = \"{}\"\nmethods = [\"{}\"]\n[axes.a]\nlabel = [1]\n", scene, method);
     for (const std::string& line : lines_of(keys)) study += line + "\n";
     const std::string name = fmt::format("s{}", ++studies_);
     write_text(at(name + ".toml"), study);
@@ -38,37 +37,18 @@ std::string undamped_chain(double time_step) {
 TEST_F(CliClass, BlowUpBeginsWhereTheFrequencySays) {
   EXPECT_EQ(class_of("chain", "velocity_verlet", undamped_chain(0.98 * 2 / omega())), "stable");
   EXPECT_EQ(class_of("chain", "velocity_verlet", undamped_chain(1.02 * 2 / omega())), "blow-up");
-  EXPECT_EQ(class_of("chain", "rk4", undamped_chain(1.03 * std::sqrt(8) / omega())), "blow-up");
-}
-
-// Just beyond the limit the stiffest wave grows by exp(acosh((dt omega)^2 / 2 - 1)) a step: as many steps as
-// make it the motion, and not yet ten times a spring.
-TEST_F(CliClass, EnergyGainIsABlowUpOnItsWay) {
-  EXPECT_EQ(
-      class_of("chain", "velocity_verlet", undamped_chain(1.003 * 2 / omega()) + "\n\"motion.steps\" = 48"),
-      "energy gain");
 }
 
 // Backward Euler leaves 1 / sqrt(1 + (dt omega)^2) of a wave's height a step: of the slowest wave, at 1 s, a
 // seventh.
 TEST_F(CliClass, OverDampedIsATooLongImplicitStep) {
   EXPECT_EQ(class_of("chain", "backward_euler", undamped_chain(1.0)), "over-damped");
-  EXPECT_EQ(class_of("chain", "reference", undamped_chain(1.0) + "\n\"relax.max_sweeps\" = 100000"),
-            "over-damped");
   EXPECT_EQ(class_of("chain", "backward_euler", undamped_chain(0.001)), "stable");
 }
 
 // 0.4 (dt omega)^2 = 500 sweeps are needed, 20 are given: the springs never hear of each other.
 TEST_F(CliClass, FalselySoftIsStarvedOfSweeps) {
   EXPECT_EQ(class_of("stiff", "engine", "\"relax.max_sweeps\" = 20\n\"motion.steps\" = 16"), "falsely soft");
-  EXPECT_EQ(class_of("stiff", "engine", "\"motion.steps\" = 16"), "stable");
-}
-
-// Eight bits rest some 0.04 (dt omega)^2 = 32 last places of 128 away from the answer: at once, and wrong.
-TEST_F(CliClass, LatticeStallIsTooFewBits) {
-  const std::string steps = "\"motion.steps\" = 16\n\"motion.time_step\" = 0.02";
-  EXPECT_EQ(class_of("banner", "engine", steps, "byte"), "lattice stall");
-  EXPECT_EQ(class_of("banner", "engine", steps, "guarded"), "stable");
 }
 
 // No length of rest, no unit-length term: each output heads for its bound, as the answer lies further than a
