@@ -18,8 +18,7 @@ struct ProblemRequest {
 };
 
 int list() {
-  for (const std::string& name : problems::names())
-    fmt::print("{:<24}{}\n", name, problems::make(name).about);
+  for (const std::string& name : problems::names()) fmt::print("{:<24}{}\n", name, problems::about(name));
   return done;
 }
 
@@ -31,8 +30,8 @@ int write(const ProblemRequest& o) {
   record::write_matrix(folder / "W.mtx", p.W.rows, p.W.columns, p.W.entries);
   record::write_vector(folder / "bias.mtx", p.bias);
   record::write_vector(folder / "V0.mtx", p.start);
-  fmt::print("{}: {}; {} weights; written to {}\n", p.name, p.about, study::grouped(p.W.entries.size()),
-             o.out);
+  fmt::print("{}: {}; {} weights; written to {}\n", p.name, problems::about(p.name),
+             study::grouped(p.W.entries.size()), o.out);
   return done;
 }
 

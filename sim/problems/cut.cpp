@@ -41,7 +41,6 @@ Problem random_cut(std::size_t nodes, double share, std::uint64_t seed) {
     for (std::size_t b = 0; b < a; ++b)
       if (dice.unit() < share) edges.emplace_back(a, b);
   Problem p = cut_of(nodes, edges, {}, seed);
-  p.about = fmt::format("max-cut of a random graph, {} nodes, half of all edges", nodes);
   return p;
 }
 
@@ -49,7 +48,6 @@ Problem ring_cut(std::size_t nodes, std::uint64_t seed) {
   Edges edges;
   for (std::size_t a = 0; a < nodes; ++a) edges.emplace_back(a, (a + 1) % nodes);
   Problem p = cut_of(nodes, edges, nodes - nodes % 2, seed);
-  p.about = fmt::format("max-cut of a ring of {} nodes: an odd one keeps an edge", nodes);
   return p;
 }
 
@@ -61,7 +59,6 @@ Problem torus_cut(std::size_t side, std::uint64_t seed) {
       edges.emplace_back(r * side + c, (r + 1) % side * side + c);
     }
   Problem p = cut_of(side * side, edges, edges.size(), seed);
-  p.about = fmt::format("max-cut of a torus of {} x {}: a chessboard cuts all", side, side);
   return p;
 }
 
@@ -78,8 +75,6 @@ Problem bipartite_cut(std::size_t nodes, std::size_t edge_count, std::uint64_t s
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }
   Problem p = cut_of(nodes, edges, edge_count, seed);
-  p.about =
-      fmt::format("max-cut of a random graph with two hidden sides, {} nodes, {} edges", nodes, edge_count);
   return p;
 }
 

@@ -83,9 +83,6 @@ Problem memory(const MemoryPlan& plan, std::uint64_t seed) {
   const auto patterns = patterns_of(plan);
   const std::vector<double> pattern = patterns[(seed - 1) % plan.patterns];
   Problem p;
-  p.about =
-      fmt::format("{} patterns in {} neurons ({}), one of them with {:.0f} % of its signs turned",
-                  plan.patterns, pattern.size(), plan.projection ? "projection" : "Hebb", 100 * plan.noise);
   p.binary = true;
   p.W = stored(patterns, plan.projection);
   p.bias.assign(pattern.size(), 0);

@@ -14,7 +14,7 @@ namespace hopmesh::problems {
 
 /// Least of E = -1/2 V'WV - I'V wanted, over the corners (binary) or the whole (modified) of the box [-1, 1].
 struct Problem {
-  std::string name, about;
+  std::string name;
   bool binary = false;
   record::SparseMatrix W; ///< symmetric
   std::vector<double> bias, start;
@@ -26,8 +26,11 @@ struct Problem {
 /// In the order of the table in docs/networks.md.
 const std::vector<std::string>& names();
 
+/// A line about it. Throws std::out_of_range for a name that is none.
+const std::string& about(const std::string& name);
+
 /// `seed` chooses where the network starts (in a memory: pattern number seed, with noise of its own), never
-/// the network. Throws std::out_of_range for a name that is none.
+/// the network. Throws as about() does.
 Problem make(const std::string& name, std::uint64_t seed = 1);
 
 /// The pattern that a memory starts beside; empty for other problems.

@@ -33,8 +33,6 @@ void couple_at_random(Couplings& couplings, std::size_t neurons, std::size_t deg
 
 Problem grid_quadratic(std::size_t side, double screen, double load, std::size_t patch) {
   Problem p;
-  p.about = fmt::format("grid Laplacian {} x {} + {}, in patches of {} x {} pushed up and down", side, side,
-                        screen, patch, patch);
   Couplings couplings(side * side);
   for (std::size_t r = 0; r < side; ++r)
     for (std::size_t c = 0; c < side; ++c) {
@@ -50,8 +48,6 @@ Problem grid_quadratic(std::size_t side, double screen, double load, std::size_t
 
 Problem random_quadratic(std::size_t neurons, std::size_t degree, double margin) {
   Problem p;
-  p.about =
-      fmt::format("random, about {} couplings a neuron, diagonal {:.2f} times their sum", degree, 1 + margin);
   Dice dice(neurons + degree);
   Couplings couplings(neurons);
   std::vector<double> row_sum(neurons, 0.0);
@@ -66,7 +62,6 @@ Problem random_quadratic(std::size_t neurons, std::size_t degree, double margin)
 
 Problem corner_quadratic(std::size_t neurons) {
   Problem p;
-  p.about = fmt::format("random, diagonal above 0: the least of {} neurons is at a corner", neurons);
   Dice dice(neurons);
   Couplings couplings(neurons);
   std::vector<double> row_sum(neurons, 0.0);
@@ -81,7 +76,6 @@ Problem corner_quadratic(std::size_t neurons) {
 
 Problem two_neurons() {
   Problem p;
-  p.about = "two neurons that turn each other; both at once they flip for ever";
   Couplings couplings(2);
   couplings.add(0, 1, -1);
   p.W = couplings.matrix();

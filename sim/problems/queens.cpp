@@ -34,7 +34,6 @@ std::string judge(std::size_t n, const std::vector<double>& V) {
 Problem queens(std::size_t n, std::uint64_t seed) {
   const std::size_t squares = n * n;
   Problem p;
-  p.about = fmt::format("{} queens on a board of {} x {}", n, n, n);
   p.bias.assign(squares, 1.0);
   Couplings couplings(squares);
   double constant = 2.0 * static_cast<double>(n) - static_cast<double>(squares);

@@ -40,7 +40,7 @@ TEST(Problems, AreAtLeastTwentyAndReachAHundredThousandNeurons) {
     EXPECT_EQ(p.name, name);
     EXPECT_EQ(p.bias.size(), p.W.rows) << name;
     EXPECT_EQ(p.start.size(), p.W.rows) << name;
-    EXPECT_FALSE(p.about.empty()) << name;
+    EXPECT_FALSE(problems::about(name).empty()) << name;
     largest = std::max(largest, p.W.rows);
   }
   EXPECT_EQ(largest, 100'000u);
