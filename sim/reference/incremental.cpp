@@ -158,10 +158,6 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
   if (motion.rule == Rule::bdf2) state.previous_position = x, state.previous_velocity = v;
 }
 
-} // namespace
-
-namespace {
-
 // Acceleration of a free node by what is no spring.
 Vector3 force_on(const scene::Mesh& mesh, const Motion& motion, Eigen::Index node) {
   Vector3 force = motion.force;
