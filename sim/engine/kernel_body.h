@@ -35,7 +35,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     }
 
     /// All of the sums that does not wait for the cells' own neurons: neighbours, own z, and x's own inputs.
-    void load(const KernelArgs& a, std::size_t block) {
+    [[gnu::always_inline]] void load(const KernelArgs& a, std::size_t block) {
       live = true;
       slot = 16 * block;
       w = a.weight + a.first_weight[block];
@@ -130,7 +130,6 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     {Kernel<Isa>::template fire<P, how, false, false>, Kernel<Isa>::template fire<P, how, false, true>},     \
         {Kernel<Isa>::template fire<P, how, true, false>, Kernel<Isa>::template fire<P, how, true, true>},   \
   }
-
 #define HM_CELLS(P)                                                                                          \
   {                                                                                                          \
     HM_KERNELS(P, Normalise::multiply), HM_KERNELS(P, Normalise::scale), HM_KERNELS(P, Normalise::divide),   \

@@ -28,6 +28,8 @@ template <typename Isa> struct Sum<Isa, true> {
   typename Isa::Longs high() const { return high_sum; }
 };
 
+/// What a kernel calls is forced into it: a call would spill every register (a third of the speed), and left
+/// to itself a compiler that sees so many kernels calls.
 template <typename Isa> struct KernelStage {
   using Words = typename Isa::Words;
   using Longs = typename Isa::Longs;
@@ -58,7 +60,7 @@ template <typename Isa> struct KernelStage {
     typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
     typename Isa::Doubles quarter, half;
 
-    Stage(const KernelArgs& a, const KernelSwings& s)
+    [[gnu::always_inline]] Stage(const KernelArgs& a, const KernelSwings& s)
         : args(a), drive(a.drive), state(a.state_rounding), link_add(Isa::all_words(a.link.add)),
           link_add_if_negative(Isa::all_words(a.link.add_if_negative)),
           link_add_if_odd(Isa::all_words(a.link.add_if_odd)), largest(Isa::load_words(s.largest_change)),
@@ -101,7 +103,7 @@ template <typename Isa> struct KernelStage {
 
   /// s to Delta V for eight neurons. R u = u - V |u|, both with the places of V and u together.
   template <Normalise how, bool plain>
-  static Longs change_of(Longs s, Longs V, const std::int64_t* multiplier, Stage& c) {
+  [[gnu::always_inline]] static Longs change_of(Longs s, Longs V, const std::int64_t* multiplier, Stage& c) {
     const Longs u = drive_of<how, plain>(s, multiplier, c);
     c.least_sum = Isa::min(c.least_sum, s);
     c.largest_sum = Isa::max(c.largest_sum, s);
@@ -124,7 +126,7 @@ template <typename Isa> struct KernelStage {
 
   /// The output stage of sixteen neurons; returns their links. |Delta V| may be 2^31: unsigned.
   template <Normalise how, bool plain, bool wide>
-  static Words publish(const Sum<Isa, wide>& sum, std::size_t at, Stage& c) {
+  [[gnu::always_inline]] static Words publish(const Sum<Isa, wide>& sum, std::size_t at, Stage& c) {
     const KernelArgs& a = c.args;
     const Words V = Isa::load_words(a.state + at);
     const Longs s0 = Isa::add(Isa::shift_up(Isa::load_widened(a.bias + at), c.bias_up), sum.low());
