@@ -34,7 +34,8 @@ quadratic::Problem problem_of(const reference::Step& step, const study::StepStat
     reference::State state;
     state.acceleration = Eigen::Map<const reference::Vector>(
         before.acceleration.data(), static_cast<Eigen::Index>(before.acceleration.size()));
-    start = reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
+    start =
+        reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
   }
   std::vector<std::uint32_t> component(static_cast<std::size_t>(start.size()));
   for (std::size_t i = 0; i < component.size(); ++i) component[i] = i % p.mesh->components();

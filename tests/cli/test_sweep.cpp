@@ -60,7 +60,9 @@ TEST_F(CliSweep, TwoAxesMeetInOneKey) {
   EXPECT_THAT(commands[2], HasSubstr("formats.link=\"fixed<8,2,SC_RND,SC_SAT>\""));
   write_text(at("t.toml"), "scene = \"two-nodes\"\n[axes.width]\nlabel = [8]\n"
                            "\"formats.state\" = \"fixed<{},2,{rouning},SC_SAT>\"\n");
-  EXPECT_THAT(bad("sweep t.toml --out t"), HasSubstr("t.toml:4: formats.state"));
+  const Finished f = hopmesh("sweep t.toml --out t");
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, HasSubstr("t.toml:4: formats.state"));
 }
 
 TEST_F(CliSweep, TheCommandOfARowRepeatsIt) {
