@@ -14,7 +14,7 @@ using study::TrialRow;
 class Search {
  public:
   Search(const study::Sizing& sizing, const SizeGoal& goal, SizeTrials& trials)
-      : sizing_(sizing), goal_(goal), trials_(trials) {}
+      : sizing_(sizing), goal_(goal), trials_(trials), most_sweeps_(goal.most_sweeps) {}
 
   SizeFound found() {
     found_.setting = sizing_.widest();
@@ -35,7 +35,7 @@ class Search {
   std::string fails_by(const TrialRow& row) const {
     if (row.status != "finished") return row.status;
     if (row.error > goal_.error) return "error";
-    return row.sweeps > goal_.most_sweeps ? "sweeps" : "";
+    return row.sweeps > most_sweeps_ ? "sweeps" : "";
   }
 
   /// Setting of the search over the knobs from `first` on -> the whole one.
@@ -74,9 +74,10 @@ class Search {
     return true;
   }
 
-  // Sweeps that no step ever made are free to go.
+  // Sweeps that no step ever made are free to go; a relaxation that takes more of them in all is no smaller.
   Setting begin_of(std::size_t first, std::size_t end) {
     Setting start = found_.setting;
+    if (first == study::k_threshold) most_sweeps_ = trials_.row(start).sweeps;
     if (first == study::k_threshold)
       start[study::k_sweeps] =
           std::clamp(static_cast<int>(trials_.row(start).most_sweeps), 1, start[study::k_sweeps]);
@@ -168,6 +169,7 @@ class Search {
   const study::Sizing& sizing_;
   const SizeGoal& goal_;
   SizeTrials& trials_;
+  std::uint64_t most_sweeps_;
   SizeFound found_;
 };
 

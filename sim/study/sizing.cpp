@@ -65,7 +65,8 @@ Setting Sizing::widest() const {
           bits(room, formats_.drive),
           state,
           std::min(state, bits(room - weight, formats_.link)),
-          widest_word,
+          inputs_.array.normaliser == spec::Normaliser::reciprocal ? widest_word
+                                                                   : inputs_.array.reciprocal_bits,
           scene_threshold,
           static_cast<int>(inputs_.scene.relax.max_sweeps),
           inputs_.array.lanes};
