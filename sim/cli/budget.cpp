@@ -60,8 +60,10 @@ void set_steps(const BudgetOptions& o, Prepared& p) {
 std::vector<double> times_of(const scene::MotionSpec& motion) {
   std::vector<double> times;
   const auto steps = static_cast<std::uint64_t>(motion.steps), count = std::min(steps, most_times);
-  for (std::uint64_t k = 1; k <= count; ++k)
-    times.push_back(static_cast<double>(steps * k / count) * motion.time_step);
+  for (std::uint64_t k = 1; k <= count; ++k) {
+    const std::uint64_t step = steps * k / count;
+    times.push_back(static_cast<double>(step) * motion.time_step);
+  }
   return times;
 }
 
