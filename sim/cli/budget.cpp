@@ -73,7 +73,7 @@ scene::Scene at_rest_scene(const BudgetOptions& o, scene::Scene scene) {
   return scene;
 }
 
-/// Motions keep references to scene parts of their own only: `p` and the level outlive them.
+/// `p` and the array's level outlive the motions.
 std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Level& array) {
   const scene::Scene& scene = p.inputs.scene;
   const auto schedule = p.inputs.array.schedule;
