@@ -60,8 +60,10 @@ void set_steps(const BudgetOptions& o, Prepared& p) {
 std::vector<double> times_of(const scene::MotionSpec& motion) {
   std::vector<double> times;
   const auto steps = static_cast<std::uint64_t>(motion.steps), count = std::min(steps, most_times);
-  for (std::uint64_t k = 1; k <= count; ++k)
-    times.push_back(static_cast<double>(steps * k / count) * motion.time_step);
+  for (std::uint64_t k = 1; k <= count; ++k) {
+    const std::uint64_t step = steps * k / count;
+    times.push_back(static_cast<double>(step) * motion.time_step);
+  }
   return times;
 }
 
@@ -71,7 +73,7 @@ scene::Scene at_rest_scene(const BudgetOptions& o, scene::Scene scene) {
   return scene;
 }
 
-/// Motions keep references to scene parts of their own only: `p` and the level outlive them.
+/// `p` and the array's level outlive the motions.
 std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Level& array) {
   const scene::Scene& scene = p.inputs.scene;
   std::vector<Link> chain;

@@ -142,11 +142,13 @@ const SizeEvidence* less(const SizeFound& found, const char* what, const char* k
 void print_knobs(const study::Sizing& sizing, const SizeFound& found) {
   fmt::print("  {:<22} {:<28} {:>24} {:>24}\n", "", "least", "one less: m (fails by)",
              "two less: m (fails by)");
+  const bool reciprocal = sizing.array_of(found.setting).normaliser == spec::Normaliser::reciprocal;
   for (std::size_t knob = 0; knob < study::k_lanes; ++knob) {
+    if (knob == study::k_reciprocal && !reciprocal) continue;
     fmt::print("  {:<22} {:<28}", study::knob_names[knob], sizing.text_of(found.setting, knob));
     for (const char* what : {"one less", "two less"}) {
       const SizeEvidence* e = less(found, what, study::knob_names[knob]);
-      fmt::print(" {:>24}", !e ? "cannot be"
+      fmt::print(" {:>24}", !e ? "at its least"
                             : e->row.status != "finished"
                                 ? e->row.status
                                 : fmt::format("{:.3g} ({})", e->row.error, e->fails_by));

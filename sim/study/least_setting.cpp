@@ -101,7 +101,7 @@ std::optional<Setting> LeastSetting::cheaper_than(const Setting& at,
 
 std::optional<Setting> LeastSetting::from(const Setting& start) {
   const std::optional<Setting> first = start_of(start);
-  if (!first) return first;
+  if (!first) return std::nullopt;
   int stride = 1;
   while (4 * stride < *std::max_element(first->begin(), first->begin() + static_cast<std::ptrdiff_t>(knobs_)))
     stride *= 2;

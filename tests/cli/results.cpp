@@ -159,7 +159,7 @@ std::string fault_of_arrays(const std::filesystem::path& folder, std::size_t ste
 
 std::string fault_of_results(const std::filesystem::path& folder, std::size_t steps, bool fixed) {
   try {
-    const std::string arrays = fault_of_arrays(folder, steps, fixed);
+    std::string arrays = fault_of_arrays(folder, steps, fixed);
     if (!arrays.empty()) return arrays;
     if (read_table(folder / "steps.csv").rows() != steps) return "rows of steps.csv";
     if (read_json(folder / "stats.json").at("steps") != steps) return "steps of stats.json";

@@ -7,7 +7,6 @@ namespace hopmesh::tests {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class CliBudget : public Cli {
  protected:
