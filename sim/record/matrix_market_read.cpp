@@ -70,7 +70,7 @@ class MarketReader {
 
   std::string choice(std::string_view& line, const std::vector<std::string>& names) const {
     const std::string_view word = next_word(line);
-    const std::string name = lower(word);
+    std::string name = lower(word);
     if (std::find(names.begin(), names.end(), name) != names.end()) return name;
     throw scene::input_error(path_, line_, "", word.empty() ? "the banner's end" : scene::in_quotes(word),
                              fmt::format("{}", fmt::join(names, ", ")), scene::nearest_name(name, names));

@@ -145,7 +145,7 @@ reference::Network GivenNetwork::network_of(const std::vector<double>& rows,
   }
   reference::Matrix W(n, n);
   W.setFromTriplets(entries.begin(), entries.end());
-  return {std::move(W), vector_of(bias)};
+  return {W, vector_of(bias)};
 }
 
 void GivenNetwork::describe() {

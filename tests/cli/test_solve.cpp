@@ -8,6 +8,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
+/// Words of a command, joined.
+std::string words(std::initializer_list<std::string_view> all) {
+  std::string joined;
+  for (const std::string_view word : all) joined.append(word).append(" ");
+  return joined;
+}
+
 class CliSolve : public Cli {
  protected:
   /// A matrix of rows, as coordinates.
@@ -65,7 +72,8 @@ TEST_F(CliSolve, TwoNeuronsOfMyOwn) {
   write_vector("bias.mtx", {0.25, 0.5});
   for (const std::string level : {"reference", "engine", "systemc", "systemc-clock"}) {
     const std::string said = good("solve W.mtx bias.mtx --out o --level " + level).out;
-    EXPECT_THAT(said, HasSubstr("W.mtx: 2 neurons, 4 weights; level " + level + ", modified, coloured"));
+    EXPECT_THAT(said, HasSubstr("W.mtx: 2 neurons, 4 weights; level " + level + ","));
+    EXPECT_THAT(said, HasSubstr(", modified, coloured"));
     EXPECT_THAT(said, HasSubstr("At rest after "));
     EXPECT_EQ(names_in(at("o")), (std::vector<std::string>{"V.mtx", "solve.csv", "summary.json"}));
     EXPECT_NEAR(outputs("o")[0], 1.0 / 3, 1e-3) << level;
@@ -91,7 +99,7 @@ TEST_F(CliSolve, EmptyRowsStayAsTheyAre) {
   write_vector("V0.mtx", {0, 0.25, 0});
   for (const char* rule : {"modified", "binary"})
     for (const char* level : {"reference", "engine", "systemc"}) {
-      good(std::string("solve W.mtx bias.mtx --start V0.mtx --out o --rule ") + rule + " --level " + level);
+      good(words({"solve W.mtx bias.mtx --start V0.mtx --out o --rule", rule, "--level", level}));
       EXPECT_EQ(outputs("o")[1], 0.25) << rule << ' ' << level;
       EXPECT_NE(outputs("o")[0], 0) << rule << ' ' << level;
     }
@@ -115,7 +123,7 @@ TEST_F(CliSolve, EngineAndSystemcAreEqualBits) {
                                       " --array prescaled --set array.schedule=synchronous --sweeps 50"}) {
         std::vector<nlohmann::json> ends;
         for (const std::string level : {"engine", "systemc"}) {
-          hopmesh("solve " + name + " --rule " + rule + array + " --out " + level + " --level " + level);
+          hopmesh(words({"solve", name, "--rule", rule, array, "--out", level, "--level", level}));
           ends.push_back(summary(level));
           ends.back().erase("level");
         }
@@ -151,8 +159,8 @@ TEST_F(CliSolve, EnergyFallsInColouredAndSequentialOrder) {
     for (const std::string rule : {"modified", "binary"})
       for (const std::string schedule : {"coloured", "sequential"})
         for (const std::string level : {"reference", "engine", "systemc"}) {
-          const std::string line = "solve " + name + " --rule " + rule +
-                                   " --array descent --set array.schedule=" + schedule + " --level " + level;
+          const std::string line = words({"solve", name, "--rule", rule, "--level", level,
+                                          "--array descent --set", "array.schedule=" + schedule});
           if (rule == "binary" && name == "box-random-100") continue; // W_ii < 0: see the next test
           hopmesh(line + " --threshold 0 --sweeps 60 --out o");
           expect_to_fall(column("o", level == "reference" ? "energy" : "loaded_energy"), line);
@@ -172,7 +180,7 @@ TEST_F(CliSolve, ABinaryNeuronThatPushesItselfAwayTurnsForEver) {
 TEST_F(CliSolve, TwoNeuronsAtOnceFlipForEver) {
   for (const std::string rule : {"modified", "binary"})
     for (const std::string level : {"reference", "engine", "systemc"}) {
-      const std::string line = "solve two-neurons --rule " + rule + " --out o --level " + level;
+      const std::string line = words({"solve two-neurons --out o --rule", rule, "--level", level});
       const Finished f = hopmesh(line + " --set array.schedule=synchronous --sweeps 7");
       EXPECT_EQ(f.exit_code, 1) << level;
       EXPECT_THAT(f.out, HasSubstr("Not at rest after 7 sweeps: limit cycle of 2")) << level;
