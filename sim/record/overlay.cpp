@@ -3,6 +3,7 @@
 #include "sim/record/base64.h"
 #include "sim/record/png.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace hopmesh::record {
@@ -11,7 +12,7 @@ namespace {
 std::string png_of(const GreyPicture& picture) {
   Picture colours{picture.width, picture.height, {}};
   for (const double shade : picture.shade) {
-    const auto byte = static_cast<std::uint8_t>(shade * 255 + 0.5);
+    const auto byte = static_cast<std::uint8_t>(std::lround(shade * 255));
     colours.rgba.insert(colours.rgba.end(), {byte, byte, byte, 255});
   }
   return encode_png(colours);

@@ -144,7 +144,7 @@ TEST_F(CliResumeRefusal, WhatIsDamaged) {
   std::string bad = good;
   bad[good.find("gravity") + 12] ^= 4;
   write_text(at("r/checkpoint"), bad);
-  expect_refused("run --resume r", "r/checkpoint:41: found a damaged line");
+  expect_refused("run --resume r", "r/checkpoint:42: found a damaged line");
   write_text(at("r/checkpoint"), good.substr(0, good.size() - 1));
   expect_refused("run --resume r", "bytes behind this line");
   write_text(at("r/checkpoint"), "[mesh]\n");

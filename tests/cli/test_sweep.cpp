@@ -56,8 +56,8 @@ TEST_F(CliSweep, TwoAxesMeetInOneKey) {
   good("sweep s.toml --out r");
   const auto commands = read_table(at("r") / "results.csv").column.at("command");
   ASSERT_EQ(commands.size(), 4u);
-  EXPECT_THAT(commands[1], HasSubstr("formats.state=\"fixed<12,2,SC_TRN,SC_SAT>\""));
-  EXPECT_THAT(commands[2], HasSubstr("formats.link=\"fixed<8,2,SC_RND,SC_SAT>\""));
+  EXPECT_THAT(commands[1], HasSubstr("formats.state=fixed<12,2,SC_TRN,SC_SAT>"));
+  EXPECT_THAT(commands[2], HasSubstr("formats.link=fixed<8,2,SC_RND,SC_SAT>"));
   write_text(at("t.toml"), "scene = \"two-nodes\"\n[axes.width]\nlabel = [8]\n"
                            "\"formats.state\" = \"fixed<{},2,{rouning},SC_SAT>\"\n");
   const Finished f = hopmesh("sweep t.toml --out t");

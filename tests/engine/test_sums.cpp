@@ -22,13 +22,13 @@ struct Counted {
     inner = &of;
     narrow = wide = 0;
     KernelSet counted = of;
-    counted.fire[1][0][1][0] = [](auto& a, auto first, auto last, auto& s) {
+    counted.fire[2][0][1][0] = [](auto& a, auto first, auto last, auto& s) {
       ++narrow;
-      inner->fire[1][0][1][0](a, first, last, s);
+      inner->fire[2][0][1][0](a, first, last, s);
     };
-    counted.fire[1][0][1][1] = [](auto& a, auto first, auto last, auto& s) {
+    counted.fire[2][0][1][1] = [](auto& a, auto first, auto last, auto& s) {
       ++wide;
-      inner->fire[1][0][1][1](a, first, last, s);
+      inner->fire[2][0][1][1](a, first, last, s);
     };
     return counted;
   }

@@ -9,7 +9,7 @@ namespace {
 /// How much a neuron yields to its input. Throws Unfit where the exact rule has no answer.
 Vector divisors(const Problem& problem, Rule rule) {
   if (rule == Rule::hopfield) return normalisers(problem);
-  const Vector curvature = -problem.W.diagonal();
+  Vector curvature = -problem.W.diagonal();
   if (!(curvature.minCoeff() > 0))
     throw Unfit("needs every W_ii below 0: a neuron here has no least energy of its own");
   return curvature;
