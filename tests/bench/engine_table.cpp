@@ -154,7 +154,7 @@ std::string picture(const Results& r) {
                size == "10000" || size == "1000000" || size == "1600" ? size + " nodes" : "", "#1f5fa8");
   const double followed = updates(r, "followed 1000000/8") * products_an_update;
   svg += dot(f, 8 * products_an_update / r.median("plain/1000000", "bytes/update"), followed,
-             "1000000, 8 sweeps followed", "#b0541b");
+             "10^6, 8 sweeps", "#b0541b");
   return svg + "</svg>\n";
 }
 
