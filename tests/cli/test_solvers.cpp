@@ -108,10 +108,11 @@ TEST_F(CliSolvers, TheChartHasALineAMethod) {
               HasSubstr("hopmesh solvers banner --set mesh.grid.rows=6 --set mesh.grid.columns=6 --step 3"));
 }
 
-// Compressed springs curve the probe's networks both ways: some methods do not apply, and the others are told apart all the
-// same.
+// Compressed springs curve the probe's networks both ways: some methods do not apply, and the others are told
+// apart all the same.
 TEST_F(CliSolvers, ANetworkOfTheProbeIsNotConvex) {
-  const std::string line = "flag-225 --set mesh.grid.rows=4 --set mesh.grid.columns=4 --set mesh.rest=2 --step 3 --gap 1e-2";
+  const std::string line =
+      "flag-225 --set mesh.grid.rows=4 --set mesh.grid.columns=4 --set mesh.rest=2 --step 3 --gap 1e-2";
   const std::string out = good("solvers " + line).out;
   EXPECT_THAT(out, HasSubstr("not convex, gaps to the lowest energy found"));
   EXPECT_THAT(out, ::testing::ContainsRegex("conjugate_gradient[^\n]*needs a convex energy"));
