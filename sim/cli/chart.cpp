@@ -121,6 +121,13 @@ std::string axis_label(const std::string& column) {
   return column.find('@') != std::string::npos || column == "position_error" ? column + " (rms), m" : column;
 }
 
+/// What is spent on a motion, in whatever currency.
+bool is_work(const std::string& column) {
+  for (const char* word : {"seconds", "cycles", "sweeps", "multiplies"})
+    if (column.find(word) != std::string::npos) return true;
+  return false;
+}
+
 int chart(ChartOptions o) {
   const fs::path folder = o.folder, results = folder / "results.csv";
   const CsvTable table = [&] {
@@ -139,9 +146,10 @@ int chart(ChartOptions o) {
   if (o.y.empty()) o.y = default_y(table);
   known_column(table, "--x", o.x), known_column(table, "--y", o.y);
   record::Chart c;
-  c.title = fs::absolute(folder).lexically_normal().filename().string() + ": speed against accuracy";
+  c.guides = is_work(o.y) && o.x.find("error") != std::string::npos; // bits, or widths, have no order
+  c.title = fs::absolute(folder).lexically_normal().filename().string() + ": " +
+            (c.guides ? "speed against accuracy" : o.y + " against " + o.x);
   c.x_label = axis_label(o.x), c.y_label = axis_label(o.y);
-  c.guides = o.y != "memory_bits"; // what an error costs in bits has no order
   c.series = series_of(table, o);
   add_floor(table, o.x, c);
   add_line(table, o.x, "backward_euler", "step solved exactly", c);

@@ -50,6 +50,13 @@ class CliNeuralMesh : public Cli {
     EXPECT_LT(read_table(engine / "steps.csv").numbers("network_error").front(), 1e-9) << scene;
     return last_places(engine);
   }
+  void expect_refused(const std::string& run, const std::string& found) const {
+    const Finished f = hopmesh("run --steps 1 --out r " + run);
+    EXPECT_EQ(f.exit_code, 2) << run;
+    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+    EXPECT_THAT(f.err, HasSubstr(found));
+    EXPECT_FALSE(fs::exists(at("r"))) << run;
+  }
   std::vector<Place> in_double(const std::string& scene) const {
     return last_places(results_of(
         scene + " --level reference --set relax.threshold=1e-14 --set relax.max_sweeps=20000", "reference"));
@@ -145,13 +152,8 @@ TEST_F(CliNeuralMesh, WhatIsNoImageIsRefusedInOneLine) {
       {"flat.pgm", "found one shade of grey in"},
       {"broken.png", "found a PNG picture that libpng refuses"},
       {"none.png", "none.png"}};
-  for (const auto& [file, found] : all) {
-    const Finished f = hopmesh(std::string("run snake --steps 1 --out r --set force.image.file=") + file);
-    EXPECT_EQ(f.exit_code, 2) << file;
-    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
-    EXPECT_THAT(f.err, HasSubstr(found));
-    EXPECT_FALSE(fs::exists(at("r"))) << file;
-  }
+  for (const auto& [file, found] : all)
+    expect_refused(std::string("snake --set force.image.file=") + file, found);
 }
 
 TEST_F(CliNeuralMesh, RivalsAndTruthRefuseWhatTheyDoNotKnow) {
@@ -159,12 +161,7 @@ TEST_F(CliNeuralMesh, RivalsAndTruthRefuseWhatTheyDoNotKnow) {
       {"catenoid", "incremental.rule: found \"static\""},
       {"steiner-3 --set incremental.rule=bdf2", "mesh.springs.law: found \"tension\""},
       {"snake --set motion.friction=0.5", "force.image.file: found an image"}};
-  for (const auto& [scene, found] : all) {
-    const Finished f = hopmesh(std::string("run --level rk4 --steps 1 --out r ") + scene);
-    EXPECT_EQ(f.exit_code, 2) << scene;
-    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
-    EXPECT_THAT(f.err, HasSubstr(found));
-  }
+  for (const auto& [scene, found] : all) expect_refused(std::string("--level rk4 ") + scene, found);
 }
 
 } // namespace

@@ -91,15 +91,20 @@ void load(Dut& dut, const ArrayJob& job) {
   ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
 }
 
+/// A device for each job: all are built before the first one runs.
+std::vector<std::unique_ptr<Dut>> duts_for(const std::vector<ArrayJob>& jobs) {
+  std::vector<std::unique_ptr<Dut>> duts;
+  for (const ArrayJob& job : jobs)
+    duts.push_back(
+        std::make_unique<Dut>(("dut" + std::to_string(duts.size())).c_str(), job.array, job.topology));
+  return duts;
+}
+
 TEST(CosimDescent, EnergyNeverRisesInAnySweep) {
   constexpr std::uint64_t jobs = 300;
   std::vector<ArrayJob> all;
-  std::vector<std::unique_ptr<Dut>> duts;
-  for (std::uint64_t seed = 1; seed <= jobs; ++seed) {
-    all.push_back(descending_job(seed));
-    duts.push_back(
-        std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), all.back().array, all.back().topology));
-  }
+  for (std::uint64_t seed = 1; seed <= jobs; ++seed) all.push_back(descending_job(seed));
+  const auto duts = duts_for(all);
   std::size_t falls = 0;
   for (std::size_t k = 0; k < jobs; ++k) {
     SCOPED_TRACE("seed " + std::to_string(k + 1) + ": " + describe(all[k]));
@@ -132,12 +137,8 @@ ArrayJob binary_job(std::uint64_t seed) {
 TEST(CosimDescent, BinaryEnergyFallsWithEveryFlipUntilNothingMoves) {
   constexpr std::uint64_t jobs = 300;
   std::vector<ArrayJob> all;
-  std::vector<std::unique_ptr<Dut>> duts;
-  for (std::uint64_t seed = 1001; seed <= 1000 + jobs; ++seed) {
-    all.push_back(binary_job(seed));
-    duts.push_back(
-        std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), all.back().array, all.back().topology));
-  }
+  for (std::uint64_t seed = 1001; seed <= 1000 + jobs; ++seed) all.push_back(binary_job(seed));
+  const auto duts = duts_for(all);
   std::size_t falls = 0;
   for (std::size_t k = 0; k < jobs; ++k) {
     SCOPED_TRACE("seed " + std::to_string(k + 1001) + ": " + describe(all[k]));

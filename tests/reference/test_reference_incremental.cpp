@@ -146,12 +146,6 @@ class ExactStep {
   double scale_ = 1;
 };
 
-Order one_by_one(Eigen::Index neurons) {
-  Order order;
-  for (Eigen::Index k = 0; k < neurons; ++k) order.push_back({static_cast<std::uint32_t>(k)});
-  return order;
-}
-
 TEST(ReferenceIncremental, AStepRelaxedToTheEndIsTheExactImplicitStep) {
   Random random(43);
   for (int k = 0; k < 24; ++k) {

@@ -7,21 +7,6 @@
 namespace hopmesh::reference::testing {
 namespace {
 
-Motion static_motion() {
-  Motion motion{};
-  motion.rule = Rule::statics;
-  motion.mass = 1, motion.time_step = 1, motion.friction = 1;
-  motion.force.setZero();
-  motion.threshold = 1e-15, motion.max_sweeps = 20000, motion.expansions = 1;
-  return motion;
-}
-
-Order one_by_one(const State& state) {
-  Order order;
-  for (Eigen::Index k = 0; k < state.V.size(); ++k) order.push_back({static_cast<std::uint32_t>(k)});
-  return order;
-}
-
 /// A tree in the plane y = 0: its terminals first.
 scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t terminals,
                  const std::vector<std::array<std::uint32_t, 2>>& springs) {
@@ -39,7 +24,7 @@ scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t te
 
 State at_rest(const scene::Mesh& mesh) {
   State state = initial_state(mesh, Rule::statics);
-  for (int step = 0; step < 60; ++step) advance(mesh, static_motion(), one_by_one(state), state);
+  for (int step = 0; step < 60; ++step) advance(mesh, static_motion(), one_by_one(state.V.size()), state);
   return state;
 }
 
