@@ -118,16 +118,6 @@ inline Vector random_point(Random& random, Eigen::Index n) {
   return V;
 }
 
-/// To a static step's rest.
-inline Motion static_motion() {
-  Motion motion{};
-  motion.rule = Rule::statics;
-  motion.mass = motion.time_step = motion.friction = 1;
-  motion.force.setZero();
-  motion.threshold = 1e-16, motion.max_sweeps = 20000, motion.expansions = 1;
-  return motion;
-}
-
 inline Order one_by_one(Eigen::Index neurons) {
   Order order;
   for (Eigen::Index n = 0; n < neurons; ++n) order.push_back({static_cast<std::uint32_t>(n)});

@@ -1,6 +1,7 @@
 // Constant tension: a spring that pulls alike at any length. Its expansion against differences of its energy,
 // and the trees and nets that come of it against closed forms (docs/neural-mesh.md).
 #include "tests/reference/random_inputs.h"
+#include "tests/reference/static_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,18 @@
+// The motion of a step that only looks for rest.
+#pragma once
+
+#include "sim/reference/reference.h"
+
+namespace hopmesh::reference::testing {
+
+/// Relaxed to the end, one expansion a step.
+inline Motion static_motion() {
+  Motion motion{};
+  motion.rule = Rule::statics;
+  motion.mass = motion.time_step = motion.friction = 1;
+  motion.force.setZero();
+  motion.threshold = 1e-16, motion.max_sweeps = 20000, motion.expansions = 1;
+  return motion;
+}
+
+} // namespace hopmesh::reference::testing
