@@ -37,6 +37,9 @@ std::string undamped_chain(double time_step) {
 TEST_F(CliClass, BlowUpBeginsWhereTheFrequencySays) {
   EXPECT_EQ(class_of("chain", "velocity_verlet", undamped_chain(0.98 * 2 / omega())), "stable");
   EXPECT_EQ(class_of("chain", "velocity_verlet", undamped_chain(1.02 * 2 / omega())), "blow-up");
+  const double rk4 = std::sqrt(8) / omega();
+  EXPECT_EQ(class_of("chain", "rk4", undamped_chain(0.98 * rk4)), "stable");
+  EXPECT_EQ(class_of("chain", "rk4", undamped_chain(1.2 * rk4)), "blow-up");
 }
 
 // Backward Euler leaves 1 / sqrt(1 + (dt omega)^2) of a wave's height a step: of the slowest wave, at 1 s, a
