@@ -11,12 +11,10 @@ class SymplecticEuler : public Method {
 
  private:
   void step() override {
-    const double dt = time_step_, kept = 1 - physics_.drag() * dt;
+    const double dt = time_step_;
     physics_.spring_forces(state_.position, force_);
     ++counters_.force_passes;
-    state_.velocity.array() =
-        kept * state_.velocity.array() +
-        dt * (force_.array() * physics_.inverse_mass().array() + physics_.external().array());
+    physics_.kick(1 - physics_.drag() * dt, dt, force_, state_.velocity);
     state_.position += dt * state_.velocity;
   }
 
@@ -44,13 +42,11 @@ class VelocityVerlet : public Method {
 
   void step() override {
     if (!knows_force_) find_force();
-    const double half = time_step_ / 2, kept = 1 - physics_.drag() * half;
-    const double lost = 1 / (1 + physics_.drag() * half);
-    const auto kick = half * (force_.array() * physics_.inverse_mass().array() + physics_.external().array());
-    state_.velocity.array() = kept * state_.velocity.array() + kick;
+    const double half = time_step_ / 2, lost = 1 / (1 + physics_.drag() * half);
+    physics_.kick(1 - physics_.drag() * half, half, force_, state_.velocity);
     state_.position += time_step_ * state_.velocity;
     find_force();
-    state_.velocity.array() = lost * (state_.velocity.array() + kick);
+    physics_.kick(lost, lost * half, force_, state_.velocity);
   }
 
   Vector force_; ///< at the present position

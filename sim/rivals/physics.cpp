@@ -56,6 +56,7 @@ Physics::Physics(const scene::Mesh& mesh, const Surroundings& surroundings)
       const Eigen::Index at = static_cast<Eigen::Index>(p) * nodes_ + node;
       initial_.position[at] = mesh.position[node][p];
       if (mesh.pinned[node] || (mesh.planar && p == 1)) continue;
+      initial_.velocity[at] = mesh.velocity[p];
       inverse_mass_[at] = 1 / mesh.mass;
       external_[at] = surroundings.force[p];
     }
@@ -64,6 +65,11 @@ Physics::Physics(const scene::Mesh& mesh, const Surroundings& surroundings)
 void Physics::acceleration(In position, Out result) const {
   spring_forces(position, result);
   result.array() = result.array() * inverse_mass_.array() + external_.array();
+}
+
+void Physics::kick(double kept, double time, In force, Out velocity) const {
+  pass_.kernel().kick(velocity.size(), kept, time, force.data(), inverse_mass_.data(), external_.data(),
+                      velocity.data());
 }
 
 double Physics::energy(const State& state) const {

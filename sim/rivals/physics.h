@@ -43,6 +43,8 @@ class Physics {
 
   /// Overwrites `force` with what the springs do at `position`.
   void spring_forces(In position, const Out& force) const { pass_.forces(position, force); }
+  /// velocity = kept * velocity + time * (force / mass + gravity and wind), 0 where nothing moves.
+  void kick(double kept, double time, In force, Out velocity) const;
   /// Springs and surroundings without drag, which each method treats in its own way.
   void acceleration(In position, Out result) const;
   double spring_energy(In position) const { return pass_.energy(position); }

@@ -62,11 +62,13 @@ void sundials(benchmark::State& state) {
   counted(state, steps, passes);
 }
 
-void force_pass(benchmark::State& state) {
+/// One instruction set's loops.
+void force_pass(benchmark::State& state, const rivals::ForceKernel& kernel) {
   const rivals::Vector position = flag().initial_state().position;
+  const rivals::ForcePass pass(static_cast<std::size_t>(flag().nodes()), flag().springs(), kernel);
   rivals::Vector force(position.size());
   for (auto _ : state) {
-    flag().spring_forces(position, force);
+    pass.forces(position, force);
     benchmark::DoNotOptimize(force.data());
     benchmark::ClobberMemory();
   }
@@ -83,7 +85,9 @@ void add_all() {
         ->Repetitions(turns)
         ->Unit(benchmark::kMillisecond);
   };
-  add("force_pass", force_pass);
+  add("force_pass", [](benchmark::State& s) { force_pass(s, rivals::force_kernels().back()); });
+  for (const rivals::ForceKernel& kernel : rivals::force_kernels())
+    add(std::string("force_pass/") + kernel.name, [kernel](benchmark::State& s) { force_pass(s, kernel); });
   for (const auto& [name, time_step] : methods)
     add(name, [name = name, time_step = time_step](benchmark::State& s) { walk(s, name, time_step); });
   add("sundials", sundials);
