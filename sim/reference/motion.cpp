@@ -73,6 +73,10 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State
   }
 }
 
+Vector3 vector(const scene::Vector3& v) {
+  return {v[0], v[1], v[2]};
+}
+
 Rule rule_named(const std::string& name) {
   if (name == "static") return Rule::statics;
   return name == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
@@ -81,7 +85,6 @@ Rule rule_named(const std::string& name) {
 } // namespace
 
 Motion motion_of(const scene::Scene& scene) {
-  const auto vector = [](const scene::Vector3& v) { return Vector3(v[0], v[1], v[2]); };
   Motion motion;
   motion.time_step = scene.motion.time_step;
   motion.friction = scene.motion.friction;
@@ -106,10 +109,12 @@ Motion motion_of(const scene::Scene& scene) {
 State initial_state(const scene::Mesh& mesh, Rule rule) {
   State state;
   state.position.resize(3 * nodes_of(mesh));
-  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
-    at(state.position, node) = Eigen::Map<const Vector3>(mesh.position[node].data());
   state.velocity = state.acceleration = Vector::Zero(3 * nodes_of(mesh));
   if (rule == Rule::bdf2) state.previous_position = state.previous_velocity = state.velocity;
+  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
+    at(state.position, node) = vector(mesh.position[node]);
+    at(state.velocity, node) = vector(mesh.start_velocity(node));
+  }
   state.V = Vector::Zero(components(mesh) * nodes_of(mesh));
   return state;
 }

@@ -41,6 +41,12 @@ std::string pins(const std::vector<Pin>& all) {
   return '[' + out + ']';
 }
 
+std::string pin_ball_text(const MeshSpec& mesh) {
+  if (!mesh.pin_ball) return "";
+  return fmt::format("pin_ball = {{ centre = {}, radius = {} }}\n", vector(mesh.pin_ball->centre),
+                     number(mesh.pin_ball->radius));
+}
+
 std::string law_text(const MeshSpec& mesh) {
   const std::string law = mesh.law == SpringLaw::tension ? "tension" : "linear";
   return "law = " + string(law) + (mesh.floor ? ", floor = " + number(*mesh.floor) : "");
@@ -58,11 +64,11 @@ std::string shape_text(const MeshSpec& mesh) {
 }
 
 std::string mesh_text(const MeshSpec& mesh) {
-  return fmt::format("\n[mesh]\n{}pinned = {}\nmass = {}\nrest = {}\nplanar = {}\n"
-                     "start = {{ shuffle = {}, seed = {} }}\n",
-                     shape_text(mesh), pins(mesh.pinned), number(mesh.mass),
+  return fmt::format("\n[mesh]\n{}pinned = {}\n{}mass = {}\nrest = {}\nplanar = {}\n"
+                     "start = {{ shuffle = {}, seed = {}, velocity = {} }}\n",
+                     shape_text(mesh), pins(mesh.pinned), pin_ball_text(mesh), number(mesh.mass),
                      mesh.rest ? number(*mesh.rest) : string("natural"), mesh.planar,
-                     number(mesh.start.shuffle), mesh.start.seed);
+                     number(mesh.start.shuffle), mesh.start.seed, vector(mesh.start.velocity));
 }
 
 std::string motion_text(const MotionSpec& motion) {

@@ -126,6 +126,7 @@ Mesh build_mesh(const Scene& scene) {
   check_planar(scene, mesh);
   check_motion(scene, mesh);
   check_held(scene, mesh);
+  mesh.velocity = scene.mesh.start.velocity;
   if (scene.mesh.start.shuffle > 0) shuffle_nodes(scene.mesh.start, mesh);
   return mesh;
 }

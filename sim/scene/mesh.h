@@ -21,6 +21,7 @@ struct Mesh {
   std::vector<Vector3> position; ///< [nodes] at the start, m: as built, or shuffled
   std::vector<Spring> springs;   ///< ascending by (node[0], node[1])
   std::vector<bool> pinned;      ///< [nodes]
+  Vector3 velocity{0, 0, 0};     ///< m/s, of every free node at the start
   double mass = 1.0;             ///< kg per node
   bool planar = false;
   SpringLaw law = SpringLaw::linear;
@@ -28,6 +29,7 @@ struct Mesh {
   std::vector<std::array<Corner, 3>> triangles; ///< the surface, front side counter-clockwise
 
   std::size_t nodes() const { return position.size(); }
+  Vector3 start_velocity(std::size_t node) const { return pinned[node] ? Vector3{0, 0, 0} : velocity; }
 };
 
 /// Builds the mesh of a scene. Throws InputError (input_error.h) for an unreadable or broken mesh file, a pin

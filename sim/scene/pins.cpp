@@ -1,4 +1,5 @@
-// Which nodes never move: by number, by the sides of a grid, or by the ends of a file mesh's extent.
+// Which nodes never move: by number, by the sides of a grid, by the ends of a file mesh's extent, or by
+// place.
 #include "sim/scene/limits.h"
 #include "sim/scene/mesh_parts.h"
 #include "sim/scene/scene_reader.h"
@@ -59,6 +60,19 @@ void pin_name(const Scene& scene, const std::string& name, Mesh& mesh) {
     pin_end_of_file_mesh(scene, name, mesh);
 }
 
+void pin_inside(const Scene& scene, const PinBall& ball, Mesh& mesh) {
+  bool found = false;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+    const Vector3& x = mesh.position[i];
+    const double d[3] = {x[0] - ball.centre[0], x[1] - ball.centre[1], x[2] - ball.centre[2]};
+    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > ball.radius * ball.radius) continue;
+    mesh.pinned[i] = found = true;
+  }
+  if (!found)
+    throw scene_error(scene, "mesh.pin_ball", "no node inside",
+                      fmt::format("at least one node within {} m of its centre", ball.radius));
+}
+
 } // namespace
 
 void pin_nodes(const Scene& scene, Mesh& mesh) {
@@ -68,6 +82,7 @@ void pin_nodes(const Scene& scene, Mesh& mesh) {
       pin_number(scene, *number, mesh);
     else
       pin_name(scene, std::get<std::string>(pin), mesh);
+  if (scene.mesh.pin_ball) pin_inside(scene, *scene.mesh.pin_ball, mesh);
 }
 
 } // namespace hopmesh::scene

@@ -24,10 +24,18 @@ using Pin = std::variant<std::string, std::int64_t>;
 /// What a spring pulls with: its stretch times 2 alpha, or alpha whatever its length.
 enum class SpringLaw { linear, tension };
 
-/// Where free nodes start: their places as built, or a random way off along each axis, the same everywhere.
+/// Where free nodes start, and how fast: their places as built, or a random way off along each axis, the same
+/// everywhere.
 struct Start {
   double shuffle = 0; ///< m, at most, along each axis
   std::int64_t seed = 1;
+  Vector3 velocity{0, 0, 0}; ///< m/s, of every free node
+};
+
+/// A place whose nodes are pinned: wherever a mesh, as built, lies inside.
+struct PinBall {
+  Vector3 centre{0, 0, 0}; ///< m
+  double radius = 0;       ///< m
 };
 
 struct MeshSpec {
@@ -38,6 +46,7 @@ struct MeshSpec {
   SpringLaw law = SpringLaw::linear;
   std::optional<double> floor; ///< tension: length that smooths the shortest; none: of the mesh (mesh.h)
   std::vector<Pin> pinned;
+  std::optional<PinBall> pin_ball; ///< pinned beside those
   double pin_band = 0.02; ///< file meshes: `top` is the part of the extent within this share of the highest
   std::string up = "z";   ///< file meshes: the axis along which `top` is highest: x, y or z
   double mass = 1.0;      ///< kg per node

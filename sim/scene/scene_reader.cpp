@@ -63,6 +63,7 @@ class SceneReader {
     keys_.refuse_unknown();
     check_shape();
     check_law();
+    check_start();
     return scene_;
   }
 
@@ -101,6 +102,7 @@ class SceneReader {
   }
 
   void read_pins() {
+    read_pin_ball();
     const TomlValue* found = keys_.value("mesh.pinned");
     if (!found) return;
     if (const auto* items = found->as<std::vector<TomlValue>>())
@@ -108,6 +110,18 @@ class SceneReader {
         scene_.mesh.pinned.push_back(read_pin(source_, item, "mesh.pinned"));
     else
       scene_.mesh.pinned = {read_pin(source_, *found, "mesh.pinned")};
+  }
+
+  void read_pin_ball() {
+    PinBall ball;
+    keys_.vector("mesh.pin_ball.centre", ball.centre);
+    const bool sized = keys_.real("mesh.pin_ball.radius", ball.radius, above_zero);
+    const TomlValue* table = source_.find("mesh.pin_ball");
+    if (!table || !table->as<TomlTable>()) return;
+    if (!sized)
+      throw input_error(source_.file_of(table->line), table->line, "mesh.pin_ball", "no radius",
+                        "{ centre = [x, y, z], radius = a length above 0 }");
+    scene_.mesh.pin_ball = ball;
   }
 
   void read_node() {
@@ -127,6 +141,7 @@ class SceneReader {
     Start& start = scene_.mesh.start;
     keys_.real("mesh.start.shuffle", start.shuffle, from_zero);
     keys_.integer("mesh.start.seed", start.seed, 0, std::numeric_limits<std::int64_t>::max());
+    keys_.vector("mesh.start.velocity", start.velocity);
   }
 
   void read_motion() {
@@ -189,6 +204,15 @@ class SceneReader {
       throw error("mesh.springs.floor", "this key only beside law = \"tension\"");
     if (mesh.law == SpringLaw::tension && mesh.rest.value_or(0) != 0)
       throw error("mesh.rest", "none beside law = \"tension\", which pulls alike at any length");
+  }
+
+  void check_start() const {
+    const Vector3& v = scene_.mesh.start.velocity;
+    if (v != Vector3{0, 0, 0} && scene_.is_static())
+      throw error("mesh.start.velocity",
+                  "none with incremental.rule = \"static\": nothing there has a speed");
+    if (v[1] != 0 && scene_.mesh.planar)
+      throw error("mesh.start.velocity", "0 along y in a planar mesh: y never moves");
   }
 
   void check_shape() const {

@@ -91,19 +91,25 @@ std::string formulation(const scene::Scene& scene) {
                             : ": outputs are scaled changes of acceleration");
 }
 
+std::string start_text(const scene::Start& start) {
+  const std::string place = start.shuffle > 0
+                                ? fmt::format("up to {} m off its place, seed {}", start.shuffle, start.seed)
+                                : "as built";
+  const scene::Vector3& v = start.velocity;
+  if (v == scene::Vector3{0, 0, 0}) return place + ", at rest";
+  return place + fmt::format(", at ({}, {}, {}) m/s", v[0], v[1], v[2]);
+}
+
 FigureTable motion(const scene::Scene& scene) {
-  return {
-      "Motion",
-      {{"formulation", formulation(scene)},
-       {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
-                             scene.motion.time_step)},
-       {"start", scene.mesh.start.shuffle > 0 ? fmt::format("up to {} m off its place, seed {}",
-                                                            scene.mesh.start.shuffle, scene.mesh.start.seed)
-                                              : "as built, at rest"},
-       {"expansions a step", fmt::format("{}", scene.relax.expansions)},
-       {"relaxed until",
-        fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
-                    grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+  return {"Motion",
+          {{"formulation", formulation(scene)},
+           {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
+                                 scene.motion.time_step)},
+           {"start", start_text(scene.mesh.start)},
+           {"expansions a step", fmt::format("{}", scene.relax.expansions)},
+           {"relaxed until",
+            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
+                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
 }
 
 std::vector<record::Figure> forces_left_out(const scene::Scene& scene) {

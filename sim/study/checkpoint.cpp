@@ -224,6 +224,7 @@ std::uint64_t mesh_hash(const scene::Mesh& mesh) {
   add(mesh.springs.data(), mesh.springs.size() * sizeof(mesh.springs[0]));
   add(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
   add(&mesh.mass, sizeof mesh.mass);
+  add(&mesh.velocity, sizeof mesh.velocity);
   const std::vector<unsigned char> pinned(mesh.pinned.begin(), mesh.pinned.end());
   add(pinned.data(), pinned.size());
   return hash;

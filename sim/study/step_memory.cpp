@@ -5,9 +5,14 @@ namespace hopmesh::study {
 StepMemory::StepMemory(const BuiltMesh& mesh, bool two_steps) {
   now.position.reserve(3 * mesh.nodes());
   for (const auto& x : mesh.mesh().position) now.position.insert(now.position.end(), x.begin(), x.end());
-  now.velocity.assign(now.position.size(), 0.0);
-  now.acceleration = predicted = now.velocity;
-  if (two_steps) now.previous_position = now.previous_velocity = now.velocity;
+  now.acceleration.assign(now.position.size(), 0.0);
+  predicted = now.acceleration;
+  if (two_steps) now.previous_position = now.previous_velocity = now.acceleration;
+  now.velocity.reserve(now.position.size());
+  for (std::size_t node = 0; node < mesh.nodes(); ++node) {
+    const auto v = mesh.mesh().start_velocity(node);
+    now.velocity.insert(now.velocity.end(), v.begin(), v.end());
+  }
   energy_change.assign(mesh.cells(), 0.0);
   direction.assign(3 * mesh.cells(), 0.0);
   start.assign(mesh.cells() * mesh.components(), 0.0);

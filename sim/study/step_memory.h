@@ -7,7 +7,7 @@
 
 namespace hopmesh::study {
 
-/// A mesh at rest in its first position, and hm_state pointing into this object; it neither moves nor copies.
+/// A mesh at its start, and hm_state pointing into this object; it neither moves nor copies.
 struct StepMemory {
   /// `two_steps`: the motion looks back two steps (BDF2).
   explicit StepMemory(const BuiltMesh& mesh, bool two_steps = false);

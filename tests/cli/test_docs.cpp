@@ -46,7 +46,7 @@ class CliDocs : public Cli {
   static std::map<std::string, std::string> keys_of(const std::string& toml) {
     std::map<std::string, std::string> keys;
     std::string table;
-    static const std::regex inner(R"((\w+) = ([^,}]+?)[ ,}])");
+    static const std::regex inner(R"((\w+) = (\[[^\]]*\]|[^,}]+?)[ ,}])");
     for (const std::string& line : lines_of(toml)) {
       if (line.empty() || line[0] == '#') continue;
       if (line[0] == '[') {

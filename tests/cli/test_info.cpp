@@ -86,7 +86,7 @@ TEST_F(CliInfo, SaysWhatEachSceneLeavesOut) {
   };
   EXPECT_EQ(left_out("free-net", "pins"), "none given: every node has a cell");
   EXPECT_EQ(left_out("free-net", "drag of the air"), "none given");
-  EXPECT_EQ(left_out("free-net", "start"), "up to 0.005 m off its place, seed 1");
+  EXPECT_EQ(left_out("free-net", "start"), "up to 0.005 m off its place, seed 1, at rest");
   EXPECT_EQ(left_out("chain", "shear springs"), "weight 0: not built");
   EXPECT_EQ(left_out("chain", "third neuron of a cell"), "planar: y never moves");
   EXPECT_EQ(left_out("chain", "wind"), "none given");

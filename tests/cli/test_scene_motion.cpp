@@ -100,6 +100,25 @@ TEST_F(SceneMotion, FreeNetFallsAsItsCentreMust) {
       << "nothing moved inside";
 }
 
+// A net thrown whole: no spring ever works, every level flies it by its own recurrence, a truth by the
+// parabola.
+TEST_F(SceneMotion, AThrownNetFliesAsAStone) {
+  const std::string thrown = "free-net --steps 20 --set mesh.start={velocity=[1.0,-2.0,3.0]} "
+                             "--set motion.time_step=0.005 --level ";
+  const double v[3] = {1, -2, 3}, dt = 0.005;
+  for (const char* level : {"reference", "engine", "backward_euler", "rk4", "velocity_verlet", "xpbd"}) {
+    const Positions p = positions(thrown + level);
+    const bool exact = level == std::string("rk4") || level == std::string("velocity_verlet");
+    const double bound = level == std::string("engine") ? 2e-5 : 1e-12;
+    for (const std::size_t n : {1u, 20u})
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double k = double(n), fall = axis == 2 ? g * dt * dt * k * (exact ? k : k + 1) / 2 : 0;
+        for (const std::size_t node : {0u, 63u})
+          EXPECT_NEAR(p.at(n, node, axis), p.at(0, node, axis) + v[axis] * dt * k - fall, bound) << level;
+      }
+  }
+}
+
 // Half a second at 16 bits on the links: 1.23 m of fall, and what docs/scene.md promises.
 TEST_F(SceneMotion, FreeNetKeepsItsMomentumToTheArraysWords) {
   const double coarse = centre_error(positions("free-net"));

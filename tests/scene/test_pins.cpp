@@ -45,6 +45,28 @@ TEST(Pins, mustNameNodesOfTheMesh) {
   EXPECT_THAT(complaint([] { held(grid, {"lefd"}); }), ::testing::HasSubstr("(did you mean left?)"));
 }
 
+std::vector<std::size_t> held_inside(Scene scene, const Vector3& centre, double radius,
+                                     const std::vector<Pin>& pins = {}) {
+  scene.mesh.pin_ball = PinBall{centre, radius};
+  return held(scene, pins);
+}
+
+TEST(Pins, aBallHoldsWhatLiesInside) {
+  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 0.5), ElementsAre(5));
+  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 1), ElementsAre(1, 4, 5, 6, 9)); // its skin counts
+  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 1.4), ElementsAre(1, 4, 5, 6, 9));
+  EXPECT_THAT(held_inside(grid, {1.5, 0.5, -2}, 0.71), ElementsAre(9, 10)); // from beside the sheet
+  EXPECT_THAT(held_inside(grid, {3, 0, 0}, 0.1, {"left"}), ElementsAre(0, 3, 4, 8));
+}
+
+TEST(Pins, aBallMustHoldANode) {
+  EXPECT_THAT(
+      complaint([] {
+        held_inside(grid, {0.5, 0, -0.5}, 0.7);
+      }),
+      ::testing::HasSubstr("mesh.pin_ball: found no node inside, expected at least one node within 0.7 m"));
+}
+
 TEST(Pins, mustLeaveANodeFree) {
   EXPECT_THAT(complaint([] {
                 held(grid_scene(2, 5), {"top", "bottom"});

@@ -29,6 +29,10 @@ TEST(SceneFile, readsEveryKey) {
   EXPECT_TRUE(s.mesh.planar);
   EXPECT_EQ(s.mesh.start.shuffle, 0.03);
   EXPECT_EQ(s.mesh.start.seed, 9);
+  EXPECT_THAT(s.mesh.start.velocity, ElementsAre(0.25, 0, -0.5));
+  ASSERT_TRUE(s.mesh.pin_ball);
+  EXPECT_THAT(s.mesh.pin_ball->centre, ElementsAre(0.1, 0.2, -0.3));
+  EXPECT_EQ(s.mesh.pin_ball->radius, 0.4);
 }
 
 TEST(SceneFile, readsEveryKeyOfTheMotion) {

@@ -31,6 +31,11 @@ void expect_equal(const MeshSpec& a, const MeshSpec& b) {
   EXPECT_EQ(a.planar, b.planar);
   EXPECT_EQ(a.start.shuffle, b.start.shuffle);
   EXPECT_EQ(a.start.seed, b.start.seed);
+  EXPECT_EQ(a.start.velocity, b.start.velocity);
+  ASSERT_EQ(a.pin_ball.has_value(), b.pin_ball.has_value());
+  if (!a.pin_ball) return;
+  EXPECT_EQ(a.pin_ball->centre, b.pin_ball->centre);
+  EXPECT_EQ(a.pin_ball->radius, b.pin_ball->radius);
 }
 
 void expect_equal(const Scene& a, const Scene& b) {
