@@ -54,6 +54,18 @@ TEST_F(CliClass, FalselySoftIsStarvedOfSweeps) {
   EXPECT_EQ(class_of("stiff", "engine", "\"relax.max_sweeps\" = 20\n\"motion.steps\" = 16"), "falsely soft");
 }
 
+// With words of four bits a place is 0.25: what a neuron would move by is less, and cut to nothing.
+TEST_F(CliClass, LatticeStallIsAStepShorterThanAPlace) {
+  const auto chain = [](int bits) {
+    std::string keys = "\"motion.steps\" = 30\n\"motion.time_step\" = 0.01\n";
+    for (const char* part : {"drive", "state", "link"})
+      keys += fmt::format("\"formats.{}\" = \"fixed<{},2,SC_TRN_ZERO,SC_SAT>\"\n", part, bits);
+    return keys + fmt::format("\"formats.weight\" = \"fixed<{},1,SC_RND,SC_SAT>\"", bits);
+  };
+  EXPECT_EQ(class_of("chain", "engine", chain(4)), "lattice stall");
+  EXPECT_EQ(class_of("chain", "engine", chain(8)), "stable");
+}
+
 // No length of rest, no unit-length term: each output heads for its bound, as the answer lies further than a
 // step reaches.
 TEST_F(CliClass, SaturatedIsAnAnswerOutOfReach) {
