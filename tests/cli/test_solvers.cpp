@@ -140,7 +140,9 @@ TEST_F(CliSolvers, ANetworkOfTheProbeIsNotConvex) {
 // The motion until then is relaxed in the array's schedule; at step 0 there is none.
 TEST_F(CliSolvers, OtherArraysDoNotChangeTheQuestion) {
   const auto counts = [this](const std::string& more) {
-    return table_of(small + "--step 0" + more).column.at("sweeps@1e-06");
+    auto column = table_of(small + "--step 0" + more).column.at("sweeps@1e-06");
+    column.erase(column.begin()); // the array's own
+    return column;
   };
   EXPECT_EQ(counts(""), counts(" --array descent"));
 }
