@@ -15,8 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int sweeps = 400, side = 6, outputs = 3 * side * (side - 1);
-// Step 0 starts from zero at every level.
-const std::string scene = fmt::format("banner --set mesh.grid.rows={0} --set mesh.grid.columns={0} ", side);
+// Step 0 of so short a time step starts from zero at every level: its first scale fits.
+const std::string scene = fmt::format(
+    "banner --set mesh.grid.rows={0} --set mesh.grid.columns={0} --set motion.time_step=0.004 ", side);
 
 /// Of a 6 x 6 grid whose first column is pinned: where an output of the array stands among all nodes'.
 int place(int output) {
