@@ -1,9 +1,9 @@
-// hopmesh solvers: other ways to the answer of one step's network, beside the network's own.
-#include "sim/cli/options.h"
+// hopmesh solvers: other ways to the answer of one step's network, beside the network's own and the array's.
+#include "sim/cli/array_solver.h"
 #include "sim/cli/progress.h"
+#include "sim/cli/step_problem.h"
 #include "sim/record/csv.h"
 #include "sim/record/svg_chart.h"
-#include "sim/rivals/quadratic/race.h"
 #include "sim/study/simulation.h"
 
 #include <algorithm>
@@ -20,28 +20,8 @@ struct SolversOptions {
   std::int64_t step = 0, max_sweeps = 20000;
   std::vector<double> gaps{1e-2, 1e-4, 1e-6};
   std::string out;
-  bool cold = false;
+  StepStart start;
 };
-
-/// The step's network, and where a network would start: the change of the step before (incremental), its
-/// direction (probe); or, cold, nowhere.
-quadratic::Problem problem_of(const reference::Step& step, const study::StepState& before, const Prepared& p,
-                              bool cold) {
-  reference::Vector start = step.V0;
-  if (cold) {
-    start.setZero();
-  } else if (p.inputs.scene.motion.formulation == scene::Formulation::incremental) {
-    reference::State state;
-    state.acceleration = Eigen::Map<const reference::Vector>(
-        before.acceleration.data(), static_cast<Eigen::Index>(before.acceleration.size()));
-    start =
-        reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
-  }
-  std::vector<std::uint32_t> component(static_cast<std::size_t>(start.size()));
-  for (std::size_t i = 0; i < component.size(); ++i) component[i] = i % p.mesh->components();
-  return quadratic::reached({step.network.W, step.network.I, start,
-                             study::order_for(*p.mesh, spec::Schedule::coloured), component});
-}
 
 std::string count_text(const std::optional<quadratic::Reached>& reached) {
   return reached ? std::to_string(reached->sweeps) : "-";
@@ -71,14 +51,16 @@ void write_csv(const quadratic::Race& race, const std::vector<double>& gaps,
   std::vector<std::string> columns{"method"};
   for (const char* kind : {"sweeps", "cpu_seconds"})
     for (const double gap : gaps) columns.push_back(fmt::format("{}@{:g}", kind, gap));
-  for (const char* name : {"factorisations", "sweeps_done", "sweeps_rising", "failure"})
+  for (const char* name :
+       {"factorisations", "sweeps_done", "sweeps_rising", "least_gap", "least_sweep", "failure"})
     columns.emplace_back(name);
   record::CsvWriter out(path, columns);
   for (const quadratic::Course& course : race.courses) {
     out.cell(course.name);
     for (const auto& reached : course.reached) reached ? out.cell(reached->sweeps) : out.cell("");
     for (const auto& reached : course.reached) reached ? out.cell(reached->seconds) : out.cell("");
-    out.cell(course.factorisations).cell(course.sweeps).cell(course.rises).cell(course.failure).end_row();
+    out.cell(course.factorisations).cell(course.sweeps).cell(course.rises);
+    out.cell(course.least_gap).cell(course.least_sweep).cell(course.failure).end_row();
   }
   out.commit();
 }
@@ -87,7 +69,7 @@ void write_csv(const quadratic::Race& race, const std::vector<double>& gaps,
 std::string chart_of(const quadratic::Race& race, const std::vector<double>& gaps, const std::string& title,
                      const std::string& command) {
   record::Chart chart;
-  chart.title = title, chart.guides = false;
+  chart.title = title, chart.curves = true;
   chart.x_label = "sweeps or iterations", chart.y_label = "energy left above the answer, of the start's";
   for (const quadratic::Course& course : race.courses) {
     record::ChartSeries series{course.name, {{}}};
@@ -114,13 +96,36 @@ std::optional<int> walk(study::ReferenceMotion& motion, std::uint64_t step, stud
   return differs;
 }
 
-int report(const SolversOptions& o, const Prepared& p, const quadratic::Problem& problem,
-           const quadratic::Race& race) {
+std::string words_of(const SolversOptions& o) {
+  std::string words = fmt::format("{} --step {}", words_of(o.common), o.step);
+  if (o.start.cold) words += " --cold";
+  if (o.start.still) words += " --still";
+  if (o.start.time_step > 0) words += fmt::format(" --time-step {}", o.start.time_step);
+  return words;
+}
+
+void write_files(const SolversOptions& o, const quadratic::Race& race, const std::string& title) {
+  const std::filesystem::path folder = o.out;
+  write_csv(race, o.gaps, folder / "solvers.csv");
+  record::write_file(folder / "solvers.svg", chart_of(race, o.gaps, title + ": ways to its network's answer",
+                                                      "hopmesh solvers " + words_of(o)));
+  fmt::print("Results\n  {}\n  {}\n", (folder / "solvers.csv").string(), (folder / "solvers.svg").string());
+}
+
+/// The rivals, and the array before them.
+int race_all(const SolversOptions& o, const Prepared& p, const quadratic::Problem& whole) {
+  const quadratic::Problem problem = quadratic::reached(whole);
+  const quadratic::Limits limits{o.gaps, static_cast<std::uint64_t>(o.max_sweeps)};
   const std::string title = fmt::format("{} step {}", p.inputs.scene.name, o.step);
+  quadratic::Race race = quadratic::race(problem, limits, stop_requested);
+  if (stop_requested) return interrupted;
   if (race.courses.empty()) {
     fmt::print("{}: the network starts at its rest; there is nothing to solve\n", title);
     return differs;
   }
+  StepArray array(whole, p);
+  race.courses.insert(race.courses.begin(), run_array(array, problem, race.answer, limits, stop_requested));
+  if (stop_requested) return interrupted;
   fmt::print("{}: {} outputs, {} weights; {}\n", title, problem.I.size(), problem.W.nonZeros(),
              race.answer.convex ? "convex, gaps to the exact answer"
                                 : "not convex, gaps to the lowest energy found");
@@ -128,14 +133,8 @@ int report(const SolversOptions& o, const Prepared& p, const quadratic::Problem&
       "sweeps, then processor milliseconds (shared cores: a guide), until the energy's gap is that part "
       "of the start's\n");
   print_table(race, o.gaps);
-  if (o.out.empty()) return done;
-  const std::filesystem::path folder = o.out;
-  const std::string command =
-      fmt::format("hopmesh solvers {} --step {}{}", words_of(o.common), o.step, o.cold ? " --cold" : "");
-  write_csv(race, o.gaps, folder / "solvers.csv");
-  record::write_file(folder / "solvers.svg",
-                     chart_of(race, o.gaps, title + ": ways to its network's answer", command));
-  fmt::print("Results\n  {}\n  {}\n", (folder / "solvers.csv").string(), (folder / "solvers.svg").string());
+  fmt::print("{}", stall_text(array, race.courses.front(), problem, race.answer));
+  if (!o.out.empty()) write_files(o, race, title);
   return done;
 }
 
@@ -152,11 +151,11 @@ int solvers(SolversOptions& o) {
   catch_interrupts();
   study::StepState before;
   if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;
-  const quadratic::Problem problem = problem_of(motion.last_step(), before, p, o.cold);
-  const quadratic::Race race =
-      quadratic::race(problem, {o.gaps, static_cast<std::uint64_t>(o.max_sweeps)}, stop_requested);
-  if (stop_requested) return interrupted;
-  return report(o, p, problem, race);
+  try {
+    return race_all(o, p, step_problem(motion, before, p, o.start));
+  } catch (const study::Stopped&) {
+    return interrupted;
+  }
 }
 
 CLI::Validator share() {
@@ -180,7 +179,13 @@ void add_solvers(CLI::App& program, int& exit_code) {
       ->delimiter(',')
       ->check(share());
   verb->add_option("--max-sweeps", o->max_sweeps, "where a method gives up (20000)")->check(whole_number(1));
-  verb->add_flag("--cold", o->cold, "start from zero, not from the step before");
+  auto* cold = verb->add_flag("--cold", o->start.cold, "start from zero, not from the step before");
+  auto* still = verb->add_flag("--still", o->start.still,
+                               "start from where the mesh stands, and expand the energy there (incremental)");
+  still->excludes(cold);
+  verb->add_option("--time-step", o->start.time_step, "of the step asked about, if not the motion's; s")
+      ->check(positive_number())
+      ->needs(still);
   verb->add_option("--out", o->out, "folder for solvers.csv and solvers.svg");
   verb->footer("Example:\n  hopmesh solvers banner --step 10 --out out/solvers");
   verb->callback([o, &exit_code] { exit_code = solvers(*o); });

@@ -53,10 +53,11 @@ class Drawing {
   std::string text() {
     frame();
     grid();
-    if (chart_.guides) guides();
+    if (chart_.guides && !chart_.curves) guides();
     lines();
-    front();
-    for (std::size_t s = 0; s < chart_.series.size(); ++s) series(s);
+    if (!chart_.curves) front();
+    const std::size_t count = chart_.series.size();
+    for (std::size_t s = 0; s < count; ++s) series(chart_.curves ? count - 1 - s : s); // the first on top
     legend();
     return out_ + "</svg>\n";
   }
@@ -81,9 +82,8 @@ class Drawing {
     put("<clipPath id=\"plot\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", left, top,
         right - left, bottom - top);
     put("<text x=\"{}\" y=\"34\" font-size=\"20\" font-weight=\"600\">{}</text>\n", left, xml(chart_.title));
-    put("<text x=\"{}\" y=\"56\" fill=\"#666\">lower left is better; dashed: nobody is better in "
-        "both</text>\n",
-        left);
+    put("<text x=\"{}\" y=\"56\" fill=\"#666\">lower left is better{}</text>\n", left,
+        chart_.curves ? "" : "; dashed: nobody is better in both");
     put("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (left + right) / 2, bottom + 46,
         xml(chart_.x_label));
     put("<text transform=\"translate(26 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
@@ -179,12 +179,19 @@ class Drawing {
       for (const ChartPoint& p : ladder)
         if (drawable(p) && !p.failed)
           path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x_.at(p.x), y_.at(p.y));
-      put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" opacity=\"0.55\"/>\n", path,
-          colour);
+      put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" {}/>\n", path, colour, stroke(index));
     }
     for (const auto& ladder : chart_.series[index].ladders)
       for (const ChartPoint& p : ladder)
-        if (drawable(p)) mark(p, colour);
+        if (drawable(p) && (!chart_.curves || &p == &ladder.back())) mark(p, colour);
+  }
+
+  // Neighbours in the list differ in dashes as well as in colour.
+  std::string stroke(std::size_t index) const {
+    static constexpr const char* dashes[] = {"none", "8 3", "2 3", "9 3 2 3"};
+    if (!chart_.curves) return "stroke-width=\"1.6\" opacity=\"0.55\"";
+    return fmt::format("stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-dasharray=\"{}\"",
+                       index == 0 ? 4 : 2, dashes[index % std::size(dashes)]);
   }
 
   void mark(const ChartPoint& p, const char* colour) {
@@ -198,9 +205,14 @@ class Drawing {
 
   void legend() {
     double y = top + 10;
-    for (std::size_t s = 0; s < chart_.series.size() && s < 24; ++s, y += 22)
-      put("<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n", right + 26,
-          y, chart_colour(s), right + 40, y + 4.5, xml(chart_.series[s].name));
+    for (std::size_t s = 0; s < chart_.series.size() && s < 24; ++s, y += 22) {
+      if (chart_.curves)
+        put("<path d=\"M{} {}h42\" stroke=\"{}\" {}/>", right + 14, y, chart_colour(s), stroke(s));
+      put("<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
+          right + (chart_.curves ? 56 : 26), y, chart_colour(s), right + (chart_.curves ? 68 : 40), y + 4.5,
+          xml(chart_.series[s].name));
+    }
+    if (chart_.curves) return;
     put("<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"#fff\" stroke=\"#666\" stroke-width=\"1.6\"/>"
         "<text x=\"{}\" y=\"{}\" fill=\"#666\">failed: no error to tell</text>\n",
         right + 26, y, right + 40, y + 4.5);
@@ -242,9 +254,9 @@ std::string xml(const std::string& text) {
 }
 
 const char* chart_colour(std::size_t series) {
-  static constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                            "#56b4e9", "#6a4c93", "#7f7f7f", "#8c510a", "#a6a600",
-                                            "#c51b7d", "#1b4d3e", "#000000", "#99582a", "#4361ee"};
+  static constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+                                            "#6a4c93", "#7f7f7f", "#8c510a", "#a6a600", "#c51b7d", "#1b4d3e",
+                                            "#000000", "#99582a", "#4361ee", "#b8a9ff"};
   return colours[series % std::size(colours)];
 }
 

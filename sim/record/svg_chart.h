@@ -28,7 +28,9 @@ struct Chart {
   std::string title, x_label, y_label;
   std::vector<ChartSeries> series;
   std::vector<ChartLine> lines;
-  bool guides = true; ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
+  bool guides = true;  ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
+  bool curves = false; ///< each ladder is one course: lines that dashes tell apart too, a mark at the end
+                       ///< only, neither front nor guides; the first is drawn heavier
 };
 
 /// Points that no other beats in both x and y, by rising x.
@@ -40,7 +42,7 @@ std::string svg_of(const Chart& chart);
 /// For text and attributes of XML.
 std::string xml(const std::string& text);
 
-/// Colours that stay apart for the colour-blind; they repeat after the fifteenth.
+/// Colours that stay apart for the colour-blind; they repeat after the sixteenth.
 const char* chart_colour(std::size_t series);
 
 } // namespace hopmesh::record

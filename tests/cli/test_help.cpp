@@ -58,7 +58,7 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
                        "wave-window", "wave-cells"});
   expect_flags("compare", {"levels", "steps"});
   expect_flags("network", {"step", "out"});
-  expect_flags("solvers", {"step", "gap", "max-sweeps", "cold", "out"});
+  expect_flags("solvers", {"step", "gap", "max-sweeps", "cold", "still", "time-step", "out"});
   expect_flags("info", {"toml"});
   expect_flags("budget", {"steps", "time", "rest-sweeps", "out"});
   expect_flags("size", {"error", "against", "time-per-step", "steps", "out"});

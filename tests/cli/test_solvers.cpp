@@ -11,7 +11,8 @@ using ::testing::HasSubstr;
 // A banner of 6 x 6 nodes: quick, and convex as every network of an implicit step.
 const std::string small = "banner --set mesh.grid.rows=6 --set mesh.grid.columns=6 ";
 
-const std::vector<std::string> methods{"hopfield_coloured",
+const std::vector<std::string> methods{"array",
+                                       "hopfield_coloured",
                                        "hopfield_sequential",
                                        "hopfield_synchronous",
                                        "hopfield_damped",
@@ -44,13 +45,14 @@ class CliSolvers : public Cli {
 
 TEST_F(CliSolvers, ARowAMethodAndAColumnAGap) {
   const Table t = table_of(small + "--step 3");
-  EXPECT_EQ(t.header,
-            (std::vector<std::string>{"method", "sweeps@0.01", "sweeps@0.0001", "sweeps@1e-06",
-                                      "cpu_seconds@0.01", "cpu_seconds@0.0001", "cpu_seconds@1e-06",
-                                      "factorisations", "sweeps_done", "sweeps_rising", "failure"}));
+  EXPECT_EQ(t.header, (std::vector<std::string>{"method", "sweeps@0.01", "sweeps@0.0001", "sweeps@1e-06",
+                                                "cpu_seconds@0.01", "cpu_seconds@0.0001", "cpu_seconds@1e-06",
+                                                "factorisations", "sweeps_done", "sweeps_rising", "least_gap",
+                                                "least_sweep", "failure"}));
   EXPECT_EQ(t.column.at("method"), methods);
   for (const std::string& method : methods) {
     if (method == "jacobi" || method == "hopfield_synchronous") continue; // nothing holds these two
+    if (method == "array") continue;                                      // it stands still when it does
     EXPECT_EQ(cell(t, method, "failure"), "") << method;
     const int first = std::stoi(cell(t, method, "sweeps@0.01")),
               last = std::stoi(cell(t, method, "sweeps@1e-06"));
@@ -100,6 +102,22 @@ TEST_F(CliSolvers, ColdIsWithoutTheStepBefore) {
   EXPECT_NE(sweeps("--step 5"), sweeps("--step 5 --cold"));
 }
 
+// A net that nothing pins or pulls flies on as it is: from where it stands, what is missing is one and the
+// same way for all nodes, and a single step along the slope is the whole answer.
+TEST_F(CliSolvers, StillIsFromWhereTheMeshStands) {
+  const std::string flying = small + "--set mesh.pinned=[] --step 5";
+  EXPECT_EQ(cell(table_of(flying + " --still"), "conjugate_gradient", "sweeps@1e-06"), "1");
+}
+
+TEST_F(CliSolvers, TheTimeStepAskedAboutIsNotTheMotions) {
+  const auto sweeps = [this](const std::string& more) {
+    return table_of(small + "--step 4 --still" + more).column.at("sweeps@1e-06");
+  };
+  const auto usual = sweeps("");
+  EXPECT_EQ(usual, sweeps(" --time-step 0.01")) << "the scene's own";
+  EXPECT_NE(usual, sweeps(" --time-step 0.05"));
+}
+
 TEST_F(CliSolvers, TheChartHasALineAMethod) {
   table_of(small + "--step 3");
   const std::string svg = content_of(at("s/solvers.svg"));
@@ -122,9 +140,16 @@ TEST_F(CliSolvers, ANetworkOfTheProbeIsNotConvex) {
 // The motion until then is relaxed in the array's schedule; at step 0 there is none.
 TEST_F(CliSolvers, OtherArraysDoNotChangeTheQuestion) {
   const auto counts = [this](const std::string& more) {
-    return table_of(small + "--step 0" + more).column.at("sweeps@1e-06");
+    auto column = table_of(small + "--step 0" + more).column.at("sweeps@1e-06");
+    column.erase(column.begin()); // the array's own
+    return column;
   };
   EXPECT_EQ(counts(""), counts(" --array descent"));
+}
+
+TEST_F(CliSolvers, ABinaryArrayIsNoWayToThisAnswer) {
+  const Table t = table_of(small + "--step 0 --still --set array.output=binary --max-sweeps 3");
+  EXPECT_THAT(cell(t, "array", "failure"), HasSubstr("outputs are binary"));
 }
 
 TEST_F(CliSolvers, ANetworkAtRestLeavesNothingToSolve) {

@@ -48,6 +48,20 @@ TEST(SvgChart, FailedPointsAreHollowAndZerosAreCounted) {
   EXPECT_THAT(svg_of(Chart{}), Not(HasSubstr("nan"))) << "nothing to draw";
 }
 
+TEST(SvgChart, CurvesAreLinesThatDashesTellApart) {
+  Chart chart;
+  chart.curves = true;
+  const std::vector<ChartPoint> course{
+      {1, 1, false, "", ""}, {2, 0.5, false, "", ""}, {4, 0.1, false, "end", ""}};
+  chart.series = {{"one", {course}}, {"two", {course}}};
+  const std::string svg = svg_of(chart);
+  EXPECT_EQ(count_of(svg, "class=\"point\""), 2u) << "the end of each";
+  EXPECT_EQ(count_of(svg, "stroke-dasharray=\"none\""), 2u) << "the line, and its sample in the legend";
+  EXPECT_EQ(count_of(svg, "stroke-dasharray=\"8 3\""), 2u);
+  EXPECT_THAT(svg, Not(HasSubstr("class=\"front\"")));
+  EXPECT_THAT(svg, Not(HasSubstr("order 1")));
+}
+
 TEST(SvgMap, PlacesAreLogarithmicBetweenCellsMiddles) {
   EXPECT_DOUBLE_EQ(place_among({1, 10, 100}, 1), 0.5);
   EXPECT_DOUBLE_EQ(place_among({1, 10, 100}, 100), 2.5);

@@ -189,5 +189,51 @@ TEST(Quadratic, NeuronsThatNothingReachesAreLeftOut) {
   EXPECT_EQ(small.component, (std::vector<std::uint32_t>{0, 1}));
 }
 
+/// Half the way to 0.3 a sweep, cut to whole eighths: 1/8, 1/8 + 0.0875 cut to 1/8, and there it stands.
+class Lattice : public quadratic::Solver {
+ public:
+  explicit Lattice(const Problem& problem) : Solver(problem) {}
+  void sweep() override { V_[0] = std::floor(8 * (V_[0] + (0.3 - V_[0]) / 2)) / 8; }
+};
+
+// By hand: W = -1, I = 0.3; the gap is ((0.3 - V) / 0.3)^2, at 1/8 (0.175 / 0.3)^2 = 0.340.
+TEST(Quadratic, ToRestGoesOnBeyondTheLastGap) {
+  const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
+  const auto make = [&] { return std::make_unique<Lattice>(p); };
+  const auto answer = quadratic::best_answer(p);
+  const auto course = quadratic::run_solver("lattice", make, p, answer, {{0.5}, 100, true}, never);
+  EXPECT_EQ(course.reached[0]->sweeps, 1u);
+  EXPECT_EQ(course.sweeps, 2u) << "the second moves nothing";
+  EXPECT_EQ(course.failure, "") << "the gap that was asked for was reached";
+  EXPECT_EQ(course.least_sweep, 1u);
+  EXPECT_NEAR(course.least_gap, std::pow(0.175 / 0.3, 2), 1e-12);
+  const auto stuck = quadratic::run_solver("lattice", make, p, answer, {{0.1}, 100, true}, never);
+  EXPECT_THAT(stuck.failure, HasSubstr("at rest after 2 sweeps at a gap of 0.34"));
+  EXPECT_EQ(quadratic::run_solver("lattice", make, p, answer, {{0.5}, 100}, never).sweeps, 1u);
+}
+
+/// Comes to 0.2 in four sweeps, then swings about it for ever, three states in turn.
+class Swinging : public quadratic::Solver {
+ public:
+  explicit Swinging(const Problem& problem) : Solver(problem) {}
+  void sweep() override {
+    ++swept_;
+    V_[0] = swept_ < 4 ? 0.05 * swept_ : 0.2 + 1e-5 * (swept_ % 3);
+  }
+
+ private:
+  int swept_ = 0;
+};
+
+TEST(Quadratic, ToRestEndsWhereNothingGoesLower) {
+  const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
+  const auto make = [&] { return std::make_unique<Swinging>(p); };
+  const auto course =
+      quadratic::run_solver("swinging", make, p, quadratic::best_answer(p), {{1e-3}, 100000, true}, never);
+  EXPECT_THAT(course.failure, HasSubstr("no lower since sweep 4 at a gap of 0.11"));
+  EXPECT_EQ(course.sweeps, 109u) << "twice as long and a hundred";
+  EXPECT_EQ(course.least_sweep, 5u) << "2e-5 above 0.2";
+}
+
 } // namespace
 } // namespace hopmesh::rivals::testing

@@ -103,5 +103,57 @@ TEST(QuadraticMesh, WithTheBoxInTheWay) {
     EXPECT_EQ(failure(race, name), "") << name;
 }
 
+/// A flag of 20 x 20 nodes, k = 100 N/m, hung by its first column in a wind, half a second under way on the
+/// true path; its next step of 0.05 s, expanded about a place and started from it.
+class FlagUnderWay : public ::testing::Test {
+ protected:
+  FlagUnderWay() {
+    const Physics physics(mesh, {{3, 1, -9.81}, 0.2});
+    const auto path = make_method("velocity_verlet", physics, 1e-4);
+    for (int k = 0; k < 5000; ++k) path->advance();
+    motion.rule = reference::Rule::backward_euler;
+    motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
+    motion.force = {3, 1, -9.81};
+    state.position = path->positions(), state.velocity = path->velocities();
+    about = reference::increment(mesh, motion, state);
+  }
+
+  Problem from(const Vector& place) const {
+    constexpr double room = 1e4; // m/s^2: no bound is near
+    const Vector start = (place - about.predicted) / (about.h * room);
+    const auto network = reference::network(mesh, about, room, start);
+    return quadratic::reached(problem_of(network.W, network.I, start));
+  }
+  static std::vector<double> counts(const Problem& p, const std::string& name) {
+    const auto course =
+        quadratic::run_solver(name, p, quadratic::best_answer(p), {{1e-2, 1e-4, 1e-6}, 9999}, never);
+    std::vector<double> sweeps;
+    for (const auto& reached : course.reached) sweeps.push_back(static_cast<double>(reached.value().sweeps));
+    return sweeps;
+  }
+
+  const scene::Mesh mesh = sheet(20, 50);
+  reference::Motion motion{};
+  reference::State state = reference::initial_state(mesh, reference::Rule::backward_euler);
+  reference::Increment about{};
+};
+
+// Counts of an older program that shared no code with this one (docs/solvers.md): from where the mesh stands.
+TEST_F(FlagUnderWay, TakesAsManySweepsAsAnotherProgramTook) {
+  const Problem p = from(state.position);
+  EXPECT_NEAR(condition(p), 784, 1);
+  EXPECT_EQ(counts(p, "jacobi_damped"), (std::vector<double>{1352, 2768, 4185}));
+  EXPECT_THAT(counts(p, "gauss_seidel"),
+              ::testing::Pointwise(::testing::DoubleNear(2), std::vector<double>{337, 685, 1032}));
+}
+
+// The prediction has what is slow to come by already: the way of the mesh as a whole.
+TEST_F(FlagUnderWay, ThePredictionIsABetterStart) {
+  const auto still = counts(from(state.position), "gauss_seidel"),
+             predicted = counts(from(about.predicted), "gauss_seidel");
+  EXPECT_LT(8 * predicted[0], still[0]);
+  EXPECT_LT(1.8 * predicted[2], still[2]);
+}
+
 } // namespace
 } // namespace hopmesh::rivals::testing

@@ -5,20 +5,28 @@
 namespace hopmesh::rivals::quadratic {
 namespace {
 
-/// Numbers of the neurons that stay, -1 for the others.
-std::vector<Eigen::Index> numbers_of_reached(const Problem& problem, Eigen::Index& count) {
-  const Vector N = normalisers(problem);
-  std::vector<Eigen::Index> number;
-  count = 0;
-  for (const double n : N) number.push_back(n > 0 ? count++ : -1);
+/// Numbers that the neurons that stay get, -1 for the others.
+std::vector<Eigen::Index> numbers_of(const std::vector<Eigen::Index>& stay, Eigen::Index neurons) {
+  std::vector<Eigen::Index> number(static_cast<std::size_t>(neurons), -1);
+  for (std::size_t k = 0; k < stay.size(); ++k)
+    number[static_cast<std::size_t>(stay[k])] = static_cast<Eigen::Index>(k);
   return number;
 }
 
 } // namespace
 
+std::vector<Eigen::Index> reached_neurons(const Problem& problem) {
+  const Vector N = normalisers(problem);
+  std::vector<Eigen::Index> stay;
+  for (Eigen::Index i = 0; i < N.size(); ++i)
+    if (N[i] > 0) stay.push_back(i);
+  return stay;
+}
+
 Problem reached(const Problem& problem) {
-  Eigen::Index count = 0;
-  const auto number = numbers_of_reached(problem, count);
+  const auto stay = reached_neurons(problem);
+  const auto number = numbers_of(stay, problem.I.size());
+  const auto count = static_cast<Eigen::Index>(stay.size());
   Problem small{Weights(count, count), Vector(count), Vector(count), {}, {}};
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < problem.I.size(); ++i) {

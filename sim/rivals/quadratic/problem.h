@@ -20,7 +20,9 @@ struct Problem {
   std::vector<std::uint32_t> component; ///< of its node, that a neuron stands for
 };
 
-/// The same without the neurons that nothing reaches (those of pinned nodes), the start within the box.
+/// Neurons that something reaches: not those of pinned nodes.
+std::vector<Eigen::Index> reached_neurons(const Problem& problem);
+/// The same problem of those alone, in their order, the start within the box.
 Problem reached(const Problem& problem);
 
 /// s = WV + I: the way down.

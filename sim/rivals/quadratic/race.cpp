@@ -1,7 +1,5 @@
 #include "sim/rivals/quadratic/race.h"
 
-#include "sim/rivals/quadratic/solver.h"
-
 #include <cmath>
 #include <ctime>
 #include <fmt/format.h>
@@ -14,6 +12,8 @@ constexpr double noise = 1e-13;    // of the start's gap: less is no rise
 constexpr double same = 1e-9;      // two states back, against one: a 2-cycle
 constexpr double moving = 1e-6;    // an output that moves by less is no part of a cycle
 constexpr double standing = 1e-15; // nothing moves any more
+constexpr double lower = 0.99;     // of the gap: a fall that counts where a course goes on to its rest
+constexpr std::uint64_t patience = 100;
 
 double processor_seconds() {
   timespec now{};
@@ -27,8 +27,9 @@ double distance(const Vector& a, const Vector& b) {
 
 class Runner {
  public:
-  Runner(const std::string& name, const Problem& problem, const Answer& answer, const Limits& limits)
-      : problem_(problem), answer_(answer), limits_(limits) {
+  Runner(const std::string& name, const MakeSolver& make, const Problem& problem, const Answer& answer,
+         const Limits& limits)
+      : make_(make), problem_(problem), answer_(answer), limits_(limits) {
     course_.name = name;
     course_.reached.resize(limits.gaps.size());
     course_.lowest = now_ = before_ = problem.start;
@@ -36,8 +37,9 @@ class Runner {
 
   Course run(const std::atomic<bool>& stop) {
     try {
-      timed([&] { solver_ = make_solver(course_.name, problem_, answer_.convex); });
-      while (!stop && course_.failure.empty() && !course_.reached.back()) one_sweep();
+      timed([&] { solver_ = make_(); });
+      while (!stop && course_.failure.empty() && !done()) one_sweep();
+      if (course_.reached.back()) course_.failure.clear();
     } catch (const Unfit& why) {
       course_.failure = why.what();
     }
@@ -46,6 +48,8 @@ class Runner {
   }
 
  private:
+  bool done() const { return course_.reached.back() && !limits_.to_rest; }
+
   template <typename Work> void timed(Work work) {
     const double began = processor_seconds();
     work();
@@ -63,14 +67,15 @@ class Runner {
 
   void judge(double gap) {
     if (gap > gap_ + noise) ++course_.rises;
-    if (gap < course_.least_gap) course_.least_gap = gap, course_.lowest = solver_->V();
+    if (gap < course_.least_gap)
+      course_.least_gap = gap, course_.lowest = solver_->V(), course_.least_sweep = course_.sweeps;
     for (std::size_t k = 0; k < limits_.gaps.size(); ++k)
       if (!course_.reached[k] && gap <= limits_.gaps[k])
         course_.reached[k] = Reached{course_.sweeps, course_.seconds};
     const auto sweep = static_cast<double>(course_.sweeps);
-    if (course_.laps.empty() || course_.reached.back() ||
-        sweep >= sparser * static_cast<double>(course_.laps.back().sweep))
+    if (course_.laps.empty() || done() || sweep >= sparser * static_cast<double>(course_.laps.back().sweep))
       course_.laps.push_back({course_.sweeps, gap});
+    if (gap < lower * lower_gap_) lower_gap_ = gap, lower_at_ = course_.sweeps;
     gap_ = gap;
   }
 
@@ -79,8 +84,10 @@ class Runner {
     const double moved = distance(V, now_);
     if (!std::isfinite(moved))
       fail("diverges");
-    else if (course_.reached.back())
+    else if (done())
       return;
+    else if (limits_.to_rest && course_.sweeps > 2 * lower_at_ + patience)
+      fail(fmt::format("no lower since sweep {}", lower_at_));
     else if (moved <= standing)
       fail(fmt::format("at rest after {} sweeps{}", course_.sweeps,
                        answer_.convex ? "" : " in another minimum"));
@@ -98,13 +105,15 @@ class Runner {
     course_.failure = std::move(how);
   }
 
+  const MakeSolver& make_;
   const Problem& problem_;
   const Answer& answer_;
   const Limits& limits_;
   Course course_;
   std::unique_ptr<Solver> solver_;
   Vector now_, before_;
-  double gap_ = 1;
+  double gap_ = 1, lower_gap_ = 1; ///< now; at the last fall that counts
+  std::uint64_t lower_at_ = 0;
 };
 
 const Course* lower_than_answer(const std::vector<Course>& courses) {
@@ -118,7 +127,13 @@ const Course* lower_than_answer(const std::vector<Course>& courses) {
 
 Course run_solver(const std::string& name, const Problem& problem, const Answer& answer, const Limits& limits,
                   const std::atomic<bool>& stop) {
-  return Runner(name, problem, answer, limits).run(stop);
+  const auto make = [&] { return make_solver(name, problem, answer.convex); };
+  return run_solver(name, make, problem, answer, limits, stop);
+}
+
+Course run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
+                  const Answer& answer, const Limits& limits, const std::atomic<bool>& stop) {
+  return Runner(name, make, problem, answer, limits).run(stop);
 }
 
 // A lower answer moves every gap, and a solver may go on further for it: so all run again.

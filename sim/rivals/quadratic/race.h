@@ -2,8 +2,10 @@
 #pragma once
 
 #include "sim/rivals/quadratic/answer.h"
+#include "sim/rivals/quadratic/solver.h"
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,6 +14,7 @@ namespace hopmesh::rivals::quadratic {
 struct Limits {
   std::vector<double> gaps; ///< relative to the start's, falling
   std::uint64_t max_sweeps = 0;
+  bool to_rest = false; ///< on beyond the last gap, until it stalls: at rest, or no lower for as long again
 };
 
 /// When a gap was first reached. Seconds are the thread's processor time, preparation included, gaps' own
@@ -32,15 +35,21 @@ struct Course {
   std::uint64_t sweeps = 0, rises = 0;         ///< done; in how many of them the energy rose
   std::uint64_t factorisations = 0;
   double seconds = 0;
-  std::string failure;   ///< a sentence; "" where every gap was reached
-  std::vector<Lap> laps; ///< for a chart: ever sparser
-  Vector lowest;         ///< of the least energy met
-  double least_gap = 1;  ///< there, relative
+  std::string failure;           ///< a sentence; "" where every gap was reached
+  std::vector<Lap> laps;         ///< for a chart: ever sparser
+  Vector lowest;                 ///< of the least energy met
+  double least_gap = 1;          ///< there, relative
+  std::uint64_t least_sweep = 0; ///< when it was first met
 };
 
 /// One solver until the last gap, a cycle, a rest, max_sweeps or `stop`.
 Course run_solver(const std::string& name, const Problem& problem, const Answer& answer, const Limits& limits,
                   const std::atomic<bool>& stop);
+
+/// The same for a solver of somebody else's; `make` counts as its preparation.
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
+Course run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
+                  const Answer& answer, const Limits& limits, const std::atomic<bool>& stop);
 
 struct Race {
   Answer answer;

@@ -1,0 +1,79 @@
+#include "sim/cli/step_problem.h"
+
+#include "sim/study/image_force.h"
+
+#include <cmath>
+
+namespace hopmesh::cli {
+
+namespace {
+
+using reference::Vector;
+using rivals::quadratic::Problem;
+
+Vector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+reference::State state_of(const study::StepState& before) {
+  reference::State state;
+  state.position = vector_of(before.position);
+  state.velocity = vector_of(before.velocity);
+  state.acceleration = vector_of(before.acceleration);
+  state.previous_position = vector_of(before.previous_position);
+  state.previous_velocity = vector_of(before.previous_velocity);
+  state.step = before.step;
+  return state;
+}
+
+Problem problem_of(const reference::Network& network, const Vector& start, const study::BuiltMesh& mesh) {
+  std::vector<std::uint32_t> component(static_cast<std::size_t>(start.size()));
+  for (std::size_t i = 0; i < component.size(); ++i) component[i] = i % mesh.components();
+  return {network.W, network.I, start, study::order_for(mesh, spec::Schedule::coloured), component};
+}
+
+reference::Increment increment_of(const Prepared& p, const reference::State& state, double time_step) {
+  reference::Motion motion = reference::motion_of(p.inputs.scene);
+  if (time_step > 0) motion.time_step = time_step;
+  if (p.inputs.scene.force.image) {
+    study::ImageForce image(p.inputs.scene);
+    motion.node_force =
+        vector_of(image.at({state.position.data(), state.position.data() + state.position.size()}));
+  }
+  return reference::increment(p.mesh->mesh(), motion, state);
+}
+
+// The scale leaves room: the way back to where the mesh stands is an output of 1/2 at most.
+Problem still_problem(const reference::Increment& increment, const Vector& place,
+                      const study::BuiltMesh& mesh, double usual_scale) {
+  const Vector back = (place - increment.predicted) / increment.h;
+  const double farthest = back.lpNorm<Eigen::Infinity>();
+  const double scale = farthest > 0 ? std::exp2(std::ceil(std::log2(2 * farthest))) : usual_scale;
+  reference::State state;
+  state.acceleration = back;
+  const Vector start = reference::expansion_point(mesh.mesh(), {}, state, scale);
+  return problem_of(reference::network(mesh.mesh(), increment, scale, start), start, mesh);
+}
+
+} // namespace
+
+Problem step_problem(const study::ReferenceMotion& motion, const study::StepState& before, const Prepared& p,
+                     const StepStart& how) {
+  const reference::Step& step = motion.last_step();
+  const bool incremental = p.inputs.scene.motion.formulation == scene::Formulation::incremental;
+  const reference::State state = state_of(before);
+  if (how.still) {
+    if (!incremental)
+      throw scene::input_error("", 0, "--still", "a scene of the probe", "formulation = \"incremental\"");
+    return still_problem(increment_of(p, state, how.time_step), state.position, *p.mesh, step.scale);
+  }
+  Vector start = step.V0;
+  if (how.cold)
+    start.setZero();
+  else if (incremental)
+    start =
+        reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
+  return problem_of(step.network, start, *p.mesh);
+}
+
+} // namespace hopmesh::cli
