@@ -33,9 +33,9 @@ std::size_t useful_threads(const spec::Topology& topology, std::size_t at_most) 
 // Sweeps follow each other where the network is larger than a cache can be hoped to hold and links are short:
 // then what all of them need at a time is a small part of it.
 std::size_t sweeps_to_follow(const spec::Topology& topology, std::size_t asked) {
-  constexpr std::size_t large = 60'000, sweeps = 8, share = 16;
+  constexpr std::size_t large = 60'000, most = 16, share = 8;
   if (asked > 0) return asked;
-  return topology.cells() >= large && link_reach(topology) * share * sweeps <= topology.cells() ? sweeps : 1;
+  return topology.cells() >= large && link_reach(topology) * share * most <= topology.cells() ? most : 1;
 }
 
 std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t asked) {

@@ -195,8 +195,7 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
   const spec::NumberFormat& f = plan_.formats.accumulator;
   const auto lanes = static_cast<std::size_t>(plan_.lanes);
   begin_with_loss(bias, sum);
-  if (narrow_sums_)
-    return add_lane_groups(w, in, taps, lanes, plan_.sum_up, plan_.product_up, to_sum_, f, sum);
+  if (narrow_sums_) return add_lane_groups(w, in, taps, lanes, plan_.product_up, to_sum_, f, sum);
   for (std::size_t t = 0; t < taps; t += lanes) {
     alignas(64) std::int64_t products[L] = {};
     add_lane_products(w + t * L, in + t * L, std::min(taps - t, lanes), products);

@@ -42,28 +42,34 @@ constexpr std::size_t wide_lanes = 8;
   wide = __builtin_convertvector(narrow, Wide);
 }
 
-/// One beat of a rounding accumulator, the products already moved up and `r.add` with them: what waits for
-/// the sum before it is the time all of it takes, and what a rounding mode does not do is left out.
-template <bool wrap, bool zero, bool sign_matters, bool odd_matters>
-[[gnu::always_inline]] inline void add_rounded(Wide& sum, const Wide& more, int up, const LaneRounding& r,
-                                               const LaneLimit& limit) {
-  Wide fine = (sum << up) + more;
-  if (sign_matters) fine += ((fine - r.add) >> 63) & r.add_if_negative;
-  if (odd_matters) fine += ((fine - r.add) >> r.places) & r.add_if_odd;
-  sum = fine >> r.places;
+template <bool wrap, bool zero> [[gnu::always_inline]] inline void hold(Wide& sum, const LaneLimit& f) {
   if (wrap)
-    sum = (sum << limit.unused) >> limit.unused;
+    sum = (sum << f.unused) >> f.unused;
   else if (zero)
-    sum &= (sum >= limit.low) & (sum <= limit.high);
+    sum &= (sum >= f.low) & (sum <= f.high);
   else
-    sum = sum < limit.low ? Wide{} + limit.low : sum > limit.high ? Wide{} + limit.high : sum;
+    sum = sum < f.low ? Wide{} + f.low : sum > f.high ? Wide{} + f.high : sum;
+}
+
+/// One beat of a rounding accumulator. All of it takes as long as what waits for the sum before it, so as
+/// much as can be is done without: the sum is whole, and a floor passes by what is whole. To the even
+/// number: ties go down, and one up again where that left an odd one.
+template <bool sign_matters, bool odd_matters>
+[[gnu::always_inline]] inline void add_rounded(Wide& sum, const Wide& more, const LaneRounding& r) {
+  if (sign_matters) {
+    const Wide fine = (sum << r.places) + more;
+    sum = (fine + r.add + ((fine >> 63) & r.add_if_negative)) >> r.places;
+    return;
+  }
+  const Wide down = (more + r.add) >> r.places;
+  sum += down;
+  if (odd_matters) sum += (((more + r.add + 1) >> r.places) - down) & sum;
 }
 
 template <bool wrap, bool zero, bool sign_matters, bool odd_matters>
-[[gnu::always_inline]] inline void add_groups(const std::int32_t* weights, const std::int32_t* links,
-                                              std::size_t taps, std::size_t group, int up,
-                                              std::int64_t product_by, const LaneRounding& rounding,
-                                              const LaneLimit& limit, std::int64_t* x) {
+[[gnu::always_inline]] inline void
+add_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps, std::size_t group,
+           int product_up, const LaneRounding& rounding, const LaneLimit& f, std::int64_t* x) {
   const LaneRounding r = rounding;
   Wide low_sum, high_sum, w, in;
   std::memcpy(&low_sum, x, sizeof low_sum);
@@ -77,23 +83,26 @@ template <bool wrap, bool zero, bool sign_matters, bool odd_matters>
       widen(w, weights + wide_lanes), widen(in, links + wide_lanes);
       high += w * in;
     }
-    add_rounded<wrap, zero, sign_matters, odd_matters>(low_sum, low * product_by + r.add, up, r, limit);
-    add_rounded<wrap, zero, sign_matters, odd_matters>(high_sum, high * product_by + r.add, up, r, limit);
+    add_rounded<sign_matters, odd_matters>(low_sum, low << product_up, r);
+    add_rounded<sign_matters, odd_matters>(high_sum, high << product_up, r);
+    if (wrap && !sign_matters) continue; // what lies above the word changes nothing within it
+    hold<wrap, zero>(low_sum, f), hold<wrap, zero>(high_sum, f);
   }
+  if (wrap) hold<wrap, zero>(low_sum, f), hold<wrap, zero>(high_sum, f);
   std::memcpy(x, &low_sum, sizeof low_sum);
   std::memcpy(x + wide_lanes, &high_sum, sizeof high_sum);
 }
 
 template <bool wrap, bool zero>
-[[gnu::always_inline]] inline void
-add_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps, std::size_t group,
-           int up, std::int64_t product_by, const LaneRounding& r, const LaneLimit& limit, std::int64_t* x) {
+[[gnu::always_inline]] inline void add_groups(const std::int32_t* weights, const std::int32_t* links,
+                                              std::size_t taps, std::size_t group, int product_up,
+                                              const LaneRounding& r, const LaneLimit& f, std::int64_t* x) {
   if (r.add_if_odd)
-    add_groups<wrap, zero, false, true>(weights, links, taps, group, up, product_by, r, limit, x);
+    add_groups<wrap, zero, false, true>(weights, links, taps, group, product_up, r, f, x);
   else if (r.add_if_negative)
-    add_groups<wrap, zero, true, false>(weights, links, taps, group, up, product_by, r, limit, x);
+    add_groups<wrap, zero, true, false>(weights, links, taps, group, product_up, r, f, x);
   else
-    add_groups<wrap, zero, false, false>(weights, links, taps, group, up, product_by, r, limit, x);
+    add_groups<wrap, zero, false, false>(weights, links, taps, group, product_up, r, f, x);
 }
 
 } // namespace
@@ -195,17 +204,15 @@ HM_WIDEST void limit_lanes(std::int64_t* __restrict x, const spec::NumberFormat&
 }
 
 HM_WIDEST void add_lane_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
-                               std::size_t group, int up, int product_up, const LaneRounding& rounding,
+                               std::size_t group, int product_up, const LaneRounding& r,
                                const spec::NumberFormat& format, std::int64_t* x) {
   const LaneLimit f(format);
-  const LaneRounding r = rounding;
-  const std::int64_t product_by = std::int64_t{1} << product_up;
   if (f.unused > 0)
-    add_groups<true, false>(weights, links, taps, group, up, product_by, r, f, x);
+    add_groups<true, false>(weights, links, taps, group, product_up, r, f, x);
   else if (f.zero)
-    add_groups<false, true>(weights, links, taps, group, up, product_by, r, f, x);
+    add_groups<false, true>(weights, links, taps, group, product_up, r, f, x);
   else
-    add_groups<false, false>(weights, links, taps, group, up, product_by, r, f, x);
+    add_groups<false, false>(weights, links, taps, group, product_up, r, f, x);
 }
 
 // A quotient of doubles is at most one off; the exact rest puts it right, and says how to round.

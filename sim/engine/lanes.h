@@ -26,10 +26,10 @@ void gather_lanes(const std::int32_t* plane, const std::uint32_t* slots, std::in
 /// sums += weights * links over `taps` rows of lanes.
 void add_lane_products(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
                        std::int64_t* sums);
-/// A rounding accumulator: for each group of `group` taps x <- Q[x + products], x moved up by `up` and
-/// products by `product_up` places to their common last place.
+/// A rounding accumulator: for each group of `group` taps x <- Q[x + products], products moved up by
+/// `product_up` places to a last place that lies `rounding.places` below that of x.
 void add_lane_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
-                     std::size_t group, int up, int product_up, const LaneRounding& rounding,
+                     std::size_t group, int product_up, const LaneRounding& rounding,
                      const spec::NumberFormat& format, std::int64_t* x);
 /// x <- x * 2^up / divisor rounded, 0 where the divisor is 0. |x| 2^up < 2^61, |quotient| < 2^50.
 void divide_lanes(std::int64_t* x, int up, const std::int64_t* divisor, spec::Rounding mode);

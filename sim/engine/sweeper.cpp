@@ -127,12 +127,13 @@ std::vector<Relaxed> Sweeper::follow(std::size_t sweeps) {
 }
 
 // The sweep that ends the run is known only when all that follow it have begun: then back, and exactly so
-// far.
+// far. Runs of a motion are much alike: the last one's length says where to look up.
 std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t limit,
                                        const std::atomic<bool>& stop, Relaxed& relaxed) {
   std::uint32_t done = 0;
   while (true) {
-    const std::size_t count = std::min<std::size_t>(followed_, limit - done);
+    const std::uint32_t left = std::min(limit, expected_ > done ? expected_ : limit) - done;
+    const std::size_t count = std::min<std::size_t>(followed_, left);
     core_.keep_outputs();
     std::vector<Relaxed> each = follow(count);
     std::size_t needed = 1;
@@ -145,7 +146,7 @@ std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t li
     relaxed.largest_change = each.back().largest_change;
     done += static_cast<std::uint32_t>(needed);
     if (relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
-      return done;
+      return expected_ = done;
   }
 }
 

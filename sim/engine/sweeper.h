@@ -41,6 +41,7 @@ class Sweeper {
   Core& core_;
   const Layout& layout_;
   std::size_t followed_;
+  std::uint32_t expected_ = 0; ///< sweeps of the last run; 0: none
   Team team_;
   std::vector<std::size_t> lag_; ///< of each stage of `followed_` sweeps, in chunks
 };

@@ -68,6 +68,27 @@ TEST_P(EngineRuns, ThatFollowEachOtherEndWherePlainOnesDo) {
   EXPECT_GT(ends.size(), 3u); // in the middle of sevens, threes and pairs
 }
 
+// The length of the last run tells the next one where to look up: right, too early, too late.
+TEST_P(EngineRuns, DoNotDependOnTheLengthOfTheRunBefore) {
+  const ArrayJob job = lively_job(seed(), schedule(), topology());
+  SCOPED_TRACE("seed " + std::to_string(seed()) + ": " + describe(job));
+  const ArrayResult whole = run_slow_array(job, Keep::every_sweep);
+  const std::vector<std::uint32_t> changes = changes_of(job, whole);
+  std::vector<std::uint32_t> thresholds(changes.rbegin(), changes.rend());
+  thresholds.insert(thresholds.end(), changes.begin(), changes.end());
+  Engine e(job.array, job.topology, {1, "auto", 4});
+  std::set<std::uint32_t> lengths;
+  for (const std::uint32_t threshold : thresholds) {
+    load(e, job);
+    const std::uint32_t sweeps = e.run(threshold, job.max_sweeps).sweeps;
+    EXPECT_LE(changes[sweeps - 1], threshold);
+    for (std::uint32_t before = 0; before + 1 < sweeps; ++before) EXPECT_GT(changes[before], threshold);
+    EXPECT_EQ(outputs(e), whole.history[sweeps - 1]);
+    lengths.insert(sweeps);
+  }
+  EXPECT_GT(lengths.size(), 3u);
+}
+
 TEST_P(EngineRuns, AreTheSameWithTwoAndThreeThreadsAndMore) {
   ArrayJob job = lively_job(seed(), schedule(), topology());
   job.max_sweeps = 4;
