@@ -7,6 +7,7 @@
 #include "sim/scene/array_file.h"
 #include "sim/study/solution.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
@@ -54,14 +55,24 @@ Task task_of(const SolveRequest& o) {
   return {o.files.weights, study::read_network(o.files), "", nullptr};
 }
 
-spec::ArraySpec array_of(const SolveRequest& o) {
-  std::vector<std::pair<std::string, std::string>> overrides;
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+Overrides overrides_of(const SolveRequest& o) {
+  Overrides overrides;
   for (const std::string& text : o.overrides) overrides.push_back(scene::split_override(text));
-  return scene::read_array(o.array, overrides);
+  return overrides;
 }
 
-// A rule is the array's output stage under the paper's name.
-void apply_rule(const std::string& rule, spec::ArraySpec& array) {
+// A rule is the array's output stage under the paper's name: --rule and --set array.output are two words for
+// one thing and must not contradict each other. Either goes before the problem's own.
+void apply_rule(const SolveRequest& o, const Overrides& overrides, const Task& task, spec::ArraySpec& array) {
+  const bool is_set = std::any_of(overrides.begin(), overrides.end(),
+                                  [](const auto& pair) { return pair.first == "array.output"; });
+  if (is_set && !o.rule.empty() && o.rule != spec::name_of(array.output))
+    throw scene::input_error(
+        "", 0, "--rule", o.rule + " beside --set array.output=" + std::string(spec::name_of(array.output)),
+        "one of the two, or the same in both");
+  const std::string rule = !o.rule.empty() ? o.rule : is_set ? "" : task.rule;
   if (!rule.empty()) array.output = *spec::mode_named<spec::Output>(rule, spec::output_names);
 }
 
@@ -88,9 +99,10 @@ int solve(const SolveRequest& o) {
   if (!(o.threshold >= 0 && o.threshold <= 2))
     throw scene::input_error("", 0, "--threshold", fmt::format("{}", o.threshold), "a number from 0 to 2");
   if (!o.rule.empty()) check_level(o.rule, "--rule", {"modified", "binary"});
-  spec::ArraySpec array = array_of(o);
+  const Overrides overrides = overrides_of(o);
+  spec::ArraySpec array = scene::read_array(o.array, overrides);
   const Task task = task_of(o);
-  apply_rule(o.rule.empty() ? task.rule : o.rule, array);
+  apply_rule(o, overrides, task, array);
   const study::GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), o.array);
   if (!o.out.empty()) record::check_writable(o.out, network.neurons() * 32);

@@ -15,7 +15,7 @@ namespace hopmesh::study {
 
 namespace {
 
-const std::string magic = "hopmesh-checkpoint", format_version = "2";
+const std::string magic = "hopmesh-checkpoint", format_version = "3";
 constexpr std::size_t most_bytes = std::size_t{1} << 32; // four million nodes take a tenth of it
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "values are written as they lie in memory");
@@ -50,6 +50,7 @@ std::string header_of(const Checkpoint& c) {
   add_lines(lines, "scene", c.scene);
   add_lines(lines, "array", c.array);
   lines.add("mesh", fmt::format("{:016x}", c.mesh));
+  if (c.image) lines.add("image", fmt::format("{:016x}", *c.image));
   for (const SignalRange& r : c.ranges)
     lines.add("range", fmt::format("{} {} {}", r.signal, r.least, r.largest));
   for (const NamedMark& s : c.streams)
@@ -81,6 +82,7 @@ class Reading {
     c_.scene = texts("scene");
     c_.array = texts("array");
     take("mesh", text_of("mesh"), c_.mesh, 16);
+    if (lines_.next_is("image")) take("image", text_of("image"), c_.image.emplace(), 16);
     while (lines_.next_is("range")) range();
     while (lines_.next_is("stream")) stream();
     c_.state.step = number("steps");
@@ -214,7 +216,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   return c;
 }
 
-// ---- mesh
+// ---- mesh and picture
 
 std::uint64_t mesh_hash(const scene::Mesh& mesh) {
   static_assert(sizeof(scene::Spring) == 24 && sizeof(scene::Corner) == 12, "no padding to be hashed");
@@ -228,6 +230,11 @@ std::uint64_t mesh_hash(const scene::Mesh& mesh) {
   const std::vector<unsigned char> pinned(mesh.pinned.begin(), mesh.pinned.end());
   add(pinned.data(), pinned.size());
   return hash;
+}
+
+std::uint64_t picture_hash(const record::GreyPicture& picture) {
+  const std::uint32_t size[2] = {picture.width, picture.height};
+  return XXH64(picture.shade.data(), picture.shade.size() * sizeof(double), XXH64(size, sizeof size, 0));
 }
 
 } // namespace hopmesh::study

@@ -2,11 +2,13 @@
 // are checked one by one, then the state in binary. docs/results.md has its keys.
 #pragma once
 
+#include "sim/record/grey_picture.h"
 #include "sim/record/stream_rest.h"
 #include "sim/scene/scene_file.h"
 #include "sim/study/motion.h"
 
 #include <map>
+#include <optional>
 
 namespace hopmesh::study {
 
@@ -21,13 +23,14 @@ struct NamedMark {
 struct Checkpoint {
   std::string program; ///< which wrote it: version and commit
   std::string level, command;
-  bool check = false;              ///< the reference is asked
-  std::uint64_t every = 0;         ///< a checkpoint is due after so many steps; 0: only when interrupted
-  std::uint64_t asked = 0;         ///< steps asked for instead of the scene's; 0: the scene's
-  double wall_seconds = 0;         ///< spent so far
-  std::uint64_t mesh = 0;          ///< mesh_hash of the mesh as built
-  std::string scene, array;        ///< their texts
-  std::vector<SignalRange> ranges; ///< seen so far; without formats
+  bool check = false;                 ///< the reference is asked
+  std::uint64_t every = 0;            ///< a checkpoint is due after so many steps; 0: only when interrupted
+  std::uint64_t asked = 0;            ///< steps asked for instead of the scene's; 0: the scene's
+  double wall_seconds = 0;            ///< spent so far
+  std::uint64_t mesh = 0;             ///< mesh_hash of the mesh as built
+  std::optional<std::uint64_t> image; ///< picture_hash of the picture that pulls
+  std::string scene, array;           ///< their texts
+  std::vector<SignalRange> ranges;    ///< seen so far; without formats
   std::vector<NamedMark> streams;
   StepState state;
 
@@ -51,5 +54,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 /// XXH64 of everything in a mesh.
 std::uint64_t mesh_hash(const scene::Mesh& mesh);
+
+/// XXH64 of what a picture shows, whatever the format of its file.
+std::uint64_t picture_hash(const record::GreyPicture& picture);
 
 } // namespace hopmesh::study

@@ -7,8 +7,7 @@ namespace hopmesh::study {
 using Clock = std::chrono::steady_clock;
 
 Checkpointer::Checkpointer(RunFiles& files, std::uint64_t every, double seconds, Safe safe)
-    : files_(files), every_(every), seconds_(seconds), began_(Clock::now()), safe_(std::move(safe)),
-      mesh_(mesh_hash(files.mesh().mesh())) {}
+    : files_(files), every_(every), seconds_(seconds), began_(Clock::now()), safe_(std::move(safe)) {}
 
 // A step that ends the run as diverged is none to go on from: a resumed run comes to it again.
 void Checkpointer::step(const StepRow& row, const Motion& motion) {
@@ -26,7 +25,8 @@ void Checkpointer::save(const Motion& motion) {
   c.every = every_;
   c.asked = facts.asked_steps;
   c.wall_seconds = seconds_ + std::chrono::duration<double>(Clock::now() - began_).count();
-  c.mesh = mesh_;
+  c.mesh = files_.mesh_hash();
+  c.image = files_.image_hash();
   c.scene = scene::scene_text(facts.inputs.scene);
   c.array = scene::array_text(facts.inputs.array);
   c.ranges = motion.ranges();

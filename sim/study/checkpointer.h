@@ -28,7 +28,6 @@ class Checkpointer : public StepSink {
   const double seconds_;
   const std::chrono::steady_clock::time_point began_;
   const Safe safe_;
-  const std::uint64_t mesh_;
 };
 
 } // namespace hopmesh::study

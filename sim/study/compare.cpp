@@ -1,7 +1,7 @@
 #include "sim/study/compare.h"
 
 #include "firmware/registers.h"
-#include "sim/study/array_info.h"
+#include "sim/study/counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,7 +193,9 @@ Comparison compare(std::vector<Contender>& contenders, const BuiltMesh& mesh, co
   if (result.outcome == Outcome::interrupted)
     result.sentence = fmt::format("Interrupted after {} of {} steps.", result.steps, steps);
   if (result.sentence.empty())
-    result.sentence = result.difference ? "Stopped at the first difference." : "All steps done.";
+    result.sentence = result.difference ? "Stopped at the first difference."
+                      : steps == 1      ? "The step is done."
+                                        : "All steps done.";
   return result;
 }
 
@@ -225,7 +227,7 @@ std::string text_of(const Difference& d, const std::string& inputs) {
 }
 
 std::string text_of(const LevelReport& r) {
-  std::string text = fmt::format("{}: {} sweeps", r.level, grouped(r.sweeps));
+  std::string text = fmt::format("{}: {}", r.level, counted(r.sweeps, "sweep"));
   if (r.cycles > 0) text += fmt::format(", {} cycles", grouped(r.cycles)); // the reference has none
   text += "\n";
   if (r.distances.empty()) return text;
@@ -237,7 +239,8 @@ std::string text_of(const LevelReport& r) {
                   "  the free motions part (positions, m):\n",
                   r.largest_output_error, r.rms_output_error, r.largest_energy_gap, r.largest_network_error);
   for (const Distance& d : r.distances)
-    text += fmt::format("    after {:>5} steps  rms {:.3g}  largest {:.3g}\n", d.steps, d.rms, d.largest);
+    text += fmt::format("    after {:>5} step{}  rms {:.3g}  largest {:.3g}\n", d.steps,
+                        d.steps == 1 ? " " : "s", d.rms, d.largest);
   return text;
 }
 
@@ -245,8 +248,8 @@ std::string text_of(const LevelReport& r) {
 
 std::string text_of(const Comparison& c, const std::string& inputs, const spec::ArraySpec& array) {
   const auto end = inputs[0] == '\'' ? inputs.find("' ") : inputs.find(' '); // of the scene's word
-  std::string text =
-      fmt::format("{} on array {}, {} steps. {}\n", inputs.substr(0, end), array.name, c.steps, c.sentence);
+  std::string text = fmt::format("{} on array {}, {}. {}\n", inputs.substr(0, end), array.name,
+                                 counted(c.steps, "step"), c.sentence);
   for (const LevelReport& report : c.levels) text += text_of(report);
   if (c.difference) return text + text_of(*c.difference, inputs);
   if (c.pairs > 0)

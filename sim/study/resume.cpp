@@ -1,6 +1,7 @@
 #include "sim/study/resume.h"
 
 #include "sim/record/npy.h"
+#include "sim/study/image_force.h"
 #include "sim/study/step_table.h"
 
 #include <fmt/format.h>
@@ -40,6 +41,14 @@ void expect_mesh(const Checkpoint& c, const scene::Inputs& inputs, const BuiltMe
   if (hash == c.mesh) return;
   throw c.error("mesh", fmt::format("{:016x}", c.mesh),
                 fmt::format("{:016x}: {} has changed", hash, inputs.scene.mesh.file.value_or("the grid")));
+}
+
+void expect_image(const Checkpoint& c, const scene::Scene& scene) {
+  if (!scene.force.image) return;
+  const std::uint64_t hash = picture_hash(picture_of(scene));
+  if (hash == c.image) return;
+  throw c.error("image", c.image ? fmt::format("{:016x}", *c.image) : "no line",
+                fmt::format("{:016x}: {} has changed", hash, scene.force.image->file));
 }
 
 void expect_state(const Checkpoint& c, const BuiltMesh& mesh) {
@@ -114,6 +123,7 @@ ResumedRun read_run(const fs::path& folder) {
   scene::Inputs inputs = inputs_in(saved);
   auto mesh = std::make_unique<BuiltMesh>(inputs.scene);
   expect_mesh(saved, inputs, *mesh);
+  expect_image(saved, inputs.scene);
   expect_state(saved, *mesh);
   RunStreams streams = streams_of(saved, folder, *mesh, std::move(lock));
   auto rows = rows_of(saved, streams);

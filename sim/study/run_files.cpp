@@ -1,6 +1,7 @@
 #include "sim/study/run_files.h"
 
 #include "sim/record/gltf.h"
+#include "sim/record/mesh_picture.h"
 #include "sim/record/overlay.h"
 #include "sim/record/report.h"
 #include "sim/study/array_info.h"
@@ -29,6 +30,10 @@ std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts&
                          a_step * (static_cast<std::uint64_t>(facts.inputs.scene.motion.steps) - done + 1) +
                              mesh.nodes() * 8192 + (4u << 20));
   return folder;
+}
+
+std::optional<record::GreyPicture> image_of(const scene::Scene& scene) {
+  return scene.force.image ? std::optional(picture_of(scene)) : std::nullopt;
 }
 
 double peak_memory_mb() {
@@ -79,7 +84,8 @@ Totals totals_of(const RunResult& result, const BuiltMesh& mesh) {
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
                    const Motion& motion)
-    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), lock_(folder),
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh),
+      mesh_hash_(study::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)), lock_(folder),
       positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
   if (facts.fixed) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
   positions_.append(motion.positions());
@@ -88,11 +94,16 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, c
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const BuiltMesh& mesh,
                    RunStreams streams)
     : folder_(ready(folder, facts, mesh, streams.steps)), facts_(facts), mesh_(mesh),
+      mesh_hash_(study::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)),
       lock_(std::move(streams.lock)),
       positions_(folder / "positions.npy", place_shape(), std::move(streams.positions)),
       table_(folder / "steps.csv", step_columns(), std::move(streams.table)) {
   if (streams.outputs)
     outputs_.emplace(folder / "outputs_raw.npy", code_shape(), std::move(*streams.outputs));
+}
+
+std::optional<std::uint64_t> RunFiles::image_hash() const {
+  return image_ ? std::optional(picture_hash(*image_)) : std::nullopt;
 }
 
 void RunFiles::step(const StepRow& row, const Motion& motion) {
@@ -120,7 +131,8 @@ void RunFiles::finish(const RunResult& result, const Motion& motion) {
                      statistics(result, motion)); // kept if the pictures cannot be written
   auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
   record::write_glb(view, folder_ / "mesh.glb");
-  if (facts_.inputs.scene.force.image)
+  record::write_mesh_picture(view, folder_ / "picture.svg");
+  if (image_)
     overlay(motion);
   else
     discard("overlay.svg");
@@ -145,7 +157,7 @@ void RunFiles::overlay(const Motion& motion) const {
     start.push_back({pixel(was[s.node[0]].data()), pixel(was[s.node[1]].data())});
     end.push_back({pixel(is + 3 * s.node[0]), pixel(is + 3 * s.node[1])});
   }
-  record::write_overlay(folder_ / "overlay.svg", picture_of(scene), start, end);
+  record::write_overlay(folder_ / "overlay.svg", *image_, start, end);
 }
 
 // The part first: a kill in between leaves no more than a kill before.
@@ -206,7 +218,9 @@ std::string RunFiles::manifest(const RunResult& result) const {
             {"seed", nullptr}, // nothing in a run is drawn at random
             {"outcome", name_of(result.outcome)},
             {"scene", scene::scene_text(facts_.inputs.scene)},
-            {"array", facts_.fixed ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)}};
+            {"array", facts_.fixed ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
+            {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
+            {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
   json["step_hashes"] = Json::array();
   for (const StepRow& row : result.rows) json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
   return json.dump(2) + "\n";

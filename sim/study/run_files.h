@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/record/csv.h"
+#include "sim/record/grey_picture.h"
 #include "sim/record/npy.h"
 #include "sim/study/resume.h"
 #include "sim/study/simulation.h"
@@ -42,14 +43,16 @@ class RunFiles : public StepSink {
   void step(const StepRow& row, const Motion& motion) override;
   /// All steps so far are on the disk; how far that is.
   std::vector<NamedMark> sync();
-  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb, report.html and, where an
-  /// image pulls, overlay.svg. A checkpoint
-  /// stays only where there is something to go on with.
+  /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb, picture.svg, report.html
+  /// and, where an image pulls, overlay.svg. A checkpoint stays only where there is something to go on with.
   void finish(const RunResult& result, const Motion& motion);
 
   const std::filesystem::path& folder() const { return folder_; }
   const RunFacts& facts() const { return facts_; }
   const BuiltMesh& mesh() const { return mesh_; }
+  /// Of what comes from files: the mesh as built, the picture that pulls if there is one.
+  std::uint64_t mesh_hash() const { return mesh_hash_; }
+  std::optional<std::uint64_t> image_hash() const;
 
  private:
   void overlay(const Motion& motion) const;
@@ -63,6 +66,8 @@ class RunFiles : public StepSink {
   const std::filesystem::path folder_;
   const RunFacts facts_;
   const BuiltMesh& mesh_;
+  const std::uint64_t mesh_hash_;
+  const std::optional<record::GreyPicture> image_;
   const record::FolderLock lock_;
   record::NpyWriter<double> positions_;
   std::optional<record::NpyWriter<std::int32_t>> outputs_;

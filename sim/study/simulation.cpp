@@ -7,6 +7,17 @@ namespace hopmesh::study {
 
 namespace {
 
+// Sentences for people: one step is not "1 steps".
+std::string all_done(std::uint64_t steps) {
+  return steps == 1 ? "The one step is done." : fmt::format("All {} steps done.", steps);
+}
+
+std::string kept(std::uint64_t before) {
+  if (before == 0) return "No step was done before it.";
+  return before == 1 ? "The one step before it is kept."
+                     : fmt::format("The {} steps before it are kept.", before);
+}
+
 // One step; true while the run goes on.
 bool one_step(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks, RunResult& result) {
   const std::uint64_t step = result.rows.size();
@@ -14,8 +25,7 @@ bool one_step(Motion& motion, std::uint64_t steps, const std::vector<StepSink*>&
     result.rows.push_back(motion.advance());
   } catch (const Diverged& why) {
     result.outcome = Outcome::diverged;
-    result.sentence = fmt::format("The motion diverged in step {}: {}. The {} steps before it are kept.",
-                                  step, why.what(), step);
+    result.sentence = fmt::format("The motion diverged in step {}: {}. {}", step, why.what(), kept(step));
     return false;
   } catch (const Stopped&) {
     result.outcome = Outcome::interrupted;
@@ -38,7 +48,7 @@ RunResult simulate(Motion& motion, std::uint64_t steps, const std::vector<StepSi
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
   RunResult result = std::move(earlier);
-  result.sentence = fmt::format("All {} steps done.", steps);
+  result.sentence = all_done(steps);
   while (result.rows.size() < steps) {
     if (stop) result.outcome = Outcome::interrupted;
     if (stop || !one_step(motion, steps, sinks, result)) break;

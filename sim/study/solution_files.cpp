@@ -1,6 +1,6 @@
 // A solution as people read it, and as V.mtx and summary.json.
 #include "sim/record/output_file.h"
-#include "sim/study/array_info.h"
+#include "sim/study/counted.h"
 #include "sim/study/solution.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace hopmesh::study {
 namespace {
 
 std::string ending_of(const Solution& s) {
-  const std::string sweeps = fmt::format("after {} sweeps", grouped(s.rest.sweeps));
+  const std::string sweeps = "after " + counted(s.rest.sweeps, "sweep");
   if (s.rest.converged) return "At rest " + sweeps;
   if (s.limit_cycle > 0) return fmt::format("Not at rest {}: limit cycle of {}", sweeps, s.limit_cycle);
   return "Not at rest " + sweeps;
@@ -21,8 +21,8 @@ std::string ending_of(const Solution& s) {
 
 std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& s) {
   std::string text =
-      fmt::format("{}: {} neurons, {} weights; level {}, {}, {}\n", label.network, grouped(network.neurons()),
-                  grouped(network.weights()), label.level, label.rule, label.schedule);
+      fmt::format("{}: {}, {}; level {}, {}, {}\n", label.network, counted(network.neurons(), "neuron"),
+                  counted(network.weights(), "weight"), label.level, label.rule, label.schedule);
   text += ending_of(s);
   if (s.rest.cycles > 0) text += fmt::format(", {} cycles", grouped(s.rest.cycles));
   text += fmt::format("\nEnergy {:.9g}, at the start {:.9g}; KKT residual {:.3g}\n", s.energy,

@@ -171,6 +171,8 @@ std::string fault_of_results(const std::filesystem::path& folder, std::size_t st
     if (glb.compare(0, 4, "glTF") != 0 || length != glb.size()) return "mesh.glb";
     if (report.find("<html") == std::string::npos || report.find("</html>") == std::string::npos)
       return "report.html";
+    const std::string picture = content_of(folder / "picture.svg");
+    if (picture.rfind("<svg ", 0) != 0 || picture.find("</svg>") == std::string::npos) return "picture.svg";
     for (const std::string& name : names_in(folder))
       if (name.find(".part") != std::string::npos) return "left behind: " + name;
   } catch (const std::exception& error) {

@@ -148,8 +148,9 @@ TEST_F(CliEnding, AWaveEndsEarlyAndSaysSoWhenItsDiskIsNearlyFull) {
 TEST_F(CliEnding, AFileThatCannotGrowLeavesNoHalfOfIt) {
   around.largest_file = 200'000; // the report is larger, all else is not
   expect_refused(hopmesh("run two-nodes --steps 3 --out r"), "report.html: ");
-  EXPECT_EQ(names_in(at("r")), (std::vector<std::string>{"manifest.json", "mesh.glb", "outputs_raw.npy",
-                                                         "positions.npy", "stats.json", "steps.csv"}));
+  EXPECT_EQ(names_in(at("r")),
+            (std::vector<std::string>{"manifest.json", "mesh.glb", "outputs_raw.npy", "picture.svg",
+                                      "positions.npy", "stats.json", "steps.csv"}));
   EXPECT_EQ(read_array(at("r/positions.npy")).shape[0], 4u);
   around.largest_file = 4'000; // not even the positions
   expect_refused(hopmesh("run flag-225 --steps 2 --no-check --out q"), "positions.npy: ");

@@ -130,15 +130,51 @@ TEST_F(CliNeuralMesh, ANetThatIsNoConformalOneIsAnotherSurface) {
   EXPECT_NEAR(radius(places[2 * 32]), 1.2272, 1e-4) << "where the catenoid has 1";
 }
 
+double from_middle_of_disc(const Place& p) {
+  return std::sqrt(std::pow(p[0] - 34, 2) + std::pow(p[2] + 29, 2));
+}
+
 TEST_F(CliNeuralMesh, TheSnakeLiesOnTheDiscsEdge) {
   const auto places = at_rest("snake");
   for (const auto& found : {places, in_double("snake")})
-    for (const Place& p : found)
-      EXPECT_NEAR(std::sqrt(std::pow(p[0] - 34, 2) + std::pow(p[2] + 29, 2)), 17, 1);
+    for (const Place& p : found) EXPECT_NEAR(from_middle_of_disc(p), 17, 1);
   const std::string overlay = content_of(at("engine") / "overlay.svg");
   EXPECT_THAT(overlay, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
   EXPECT_THAT(overlay, HasSubstr("<path d=\"M60.000 32.000L")) << "where node 0 started";
   EXPECT_FALSE(fs::exists(results_of("two-nodes --steps 2", "engine") / "overlay.svg")) << "of another run";
+}
+
+/// Twice the area between a node and the next of the ring around it, as its hub sees them: above 0 where the
+/// net has not folded.
+double area(const Place& hub, const Place& a, const Place& b) {
+  return (a[0] - hub[0]) * (b[2] - hub[2]) - (b[0] - hub[0]) * (a[2] - hub[2]);
+}
+
+// A hub and three rings of 32 nodes (sim/scenes/snake-mesh.obj).
+TEST_F(CliNeuralMesh, TheMeshedSnakesOuterRingLiesOnTheDiscsEdge) {
+  const std::size_t n = 32;
+  for (const auto& net : {at_rest("snake-mesh"), in_double("snake-mesh")}) {
+    ASSERT_EQ(net.size(), 1 + 3 * n);
+    for (std::size_t k = 0; k < n; ++k) {
+      EXPECT_NEAR(from_middle_of_disc(net[1 + 2 * n + k]), 17, 1) << k;
+      for (std::size_t ring = 0; ring < 3; ++ring)
+        EXPECT_GT(area(net[0], net[1 + ring * n + k], net[1 + ring * n + (k + 1) % n]), 0)
+            << ring << ' ' << k;
+      EXPECT_LT(from_middle_of_disc(net[1 + n + k]), 13) << "the edge holds the outer ring alone";
+    }
+  }
+  EXPECT_THAT(content_of(at("engine") / "overlay.svg"), HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+}
+
+// The pictures of the page are what its commands leave.
+TEST_F(CliNeuralMesh, ThePagesPicturesAreTheProgramsOwn) {
+  const std::string pictures = HOPMESH_SOURCE_DIR "/docs/pictures/";
+  for (const auto& [scene, file] : {std::pair{"steiner-6", "picture.svg"},
+                                    {"catenoid", "picture.svg"},
+                                    {"snake", "overlay.svg"},
+                                    {"snake-mesh", "overlay.svg"}})
+    EXPECT_TRUE(content_of(results_of(scene, scene) / file) == content_of(pictures + scene + ".svg"))
+        << scene;
 }
 
 TEST_F(CliNeuralMesh, WhatIsNoImageIsRefusedInOneLine) {

@@ -147,6 +147,30 @@ TEST_F(CliResults, AManifestRepeatsAMeshFileFromAnywhere) {
   expect_same_bits(r, repeated(r));
 }
 
+TEST_F(CliResults, AManifestKnowsWhetherItsFilesAreStillTheSame) {
+  const std::string scenes = HOPMESH_SOURCE_DIR "/sim/scenes/";
+  const auto hashes = [&](const std::string& obj, const std::string& pgm) {
+    write_text(at("s.obj"), obj), write_text(at("s.pgm"), pgm);
+    const auto m = read_json(results_of("snake --steps 1 --set mesh.file=" + at("s.obj").string() +
+                                            " --set force.image.file=" + at("s.pgm").string(),
+                                        "r") /
+                             "manifest.json");
+    return std::pair<std::string, std::string>(m["mesh_hash"], m["image_hash"]);
+  };
+  const std::string obj = content_of(scenes + "snake.obj"), pgm = content_of(scenes + "snake.pgm");
+  const auto first = hashes(obj, pgm);
+  EXPECT_EQ(hashes(obj + "# a word more\n", pgm), first) << "of the mesh as built";
+  const auto moved = hashes(
+      obj.substr(0, obj.find("v ")) + "v 59 0 -31.5" + obj.substr(obj.find('\n', obj.find("v "))), pgm);
+  EXPECT_NE(moved.first, first.first);
+  EXPECT_EQ(moved.second, first.second);
+  std::string other = pgm;
+  other.back() = static_cast<char>(other.back() ^ 1);
+  EXPECT_EQ(hashes(obj, other).first, first.first);
+  EXPECT_NE(hashes(obj, other).second, first.second);
+  EXPECT_TRUE(read_json(results_of("two-nodes --steps 1", "r") / "manifest.json")["image_hash"].is_null());
+}
+
 TEST_F(CliResults, TheCommandOfAManifestRepeatsTheRun) {
   const fs::path r = results_of("two-nodes --steps 3 --set 'force.gravity=[0, 0, -0.2]' --array byte", "r");
   const std::string command = read_json(r / "manifest.json")["command"];

@@ -201,6 +201,23 @@ TEST_F(CliResume, AMeshFileThatChangedIsRefused) {
   EXPECT_EQ(difference(results_of("tent.toml --steps 30", "u"), at("r")), "");
 }
 
+TEST_F(CliResume, APictureThatChangedIsRefused) {
+  const std::string scenes = HOPMESH_SOURCE_DIR "/sim/scenes/", pgm = content_of(scenes + "snake.pgm");
+  write_text(at("disc.pgm"), pgm);
+  const std::string snake = "snake --set force.image.file=" + at("disc.pgm").string();
+  ended("run " + snake + " --steps 60000 --out r --checkpoint-every 2", 4, SIGKILL);
+  std::string other = pgm;
+  other.back() = static_cast<char>(other.back() ^ 1); // one pixel by one shade
+  write_text(at("disc.pgm"), other);
+  const Finished f = hopmesh("run --resume r");
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+  EXPECT_THAT(f.err, ::testing::ContainsRegex("r/checkpoint:[0-9]+: image: found .*disc.pgm has changed"));
+  write_text(at("disc.pgm"), pgm);
+  EXPECT_EQ(hopmesh("run --resume r --steps 200").exit_code, 0);
+  EXPECT_EQ(difference(results_of(snake + " --steps 200", "u"), at("r")), "");
+}
+
 TEST_F(CliResume, AFullDiskLosesNoSafeStep) {
   around.largest_file = 60'000; // the positions come to it first, after 350 steps
   const Finished f = hopmesh("run " + row + " --steps 60000 --out r --checkpoint-every 20");

@@ -14,8 +14,8 @@ class CliRun : public Cli {};
 TEST_F(CliRun, WritesEveryFileAndTellsTheSpeeds) {
   const Finished f = good("run two-nodes --out r");
   EXPECT_EQ(names_in(at("r")),
-            (std::vector<std::string>{"manifest.json", "mesh.glb", "outputs_raw.npy", "positions.npy",
-                                      "report.html", "stats.json", "steps.csv"}));
+            (std::vector<std::string>{"manifest.json", "mesh.glb", "outputs_raw.npy", "picture.svg",
+                                      "positions.npy", "report.html", "stats.json", "steps.csv"}));
   EXPECT_EQ(fault_of_results(at("r"), 40), "");
   EXPECT_THAT(f.out, HasSubstr("two-nodes: All 40 steps done.\n"));
   for (const char* figure : {"wall time", "steps/s", "simulated cycles/s", "Results\n  r\n"})

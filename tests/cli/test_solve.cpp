@@ -223,6 +223,21 @@ TEST_F(CliSolve, EveryFlagCounts) {
   EXPECT_THAT(good("solve memory-100").out, HasSubstr("recalled"));
 }
 
+TEST_F(CliSolve, TheRuleHasTwoNamesThatMayNotContradictEachOther) {
+  EXPECT_THAT(complaint("solve cut-20 --rule modified --set array.output=binary --out no"),
+              HasSubstr("--rule: found modified beside --set array.output=binary, expected one of the two"));
+  EXPECT_FALSE(std::filesystem::exists(at("no")));
+  EXPECT_THAT(good("solve cut-20 --rule binary --set array.output=binary").out, HasSubstr("engine, binary,"));
+  EXPECT_THAT(good("solve cut-20 --set array.output=modified").out, HasSubstr("engine, modified,"))
+      << "what is asked for goes before the problem's own rule";
+}
+
+TEST_F(CliSolve, OneIsNotSeveral) {
+  write_matrix("W.mtx", {{-2}});
+  EXPECT_THAT(hopmesh("solve W.mtx --sweeps 1").out, HasSubstr("W.mtx: 1 neuron, 1 weight; "));
+  EXPECT_THAT(hopmesh("solve box-random-100 --sweeps 1").out, HasSubstr("Not at rest after 1 sweep,"));
+}
+
 TEST_F(CliSolve, AsymmetricNetworksOnDemand) {
   write_matrix("W.mtx", {{0, 1, 0}, {0.5, -1, 0}, {0, 0.25, -1}});
   write_vector("bias.mtx", {0.1, 0, 0});

@@ -26,6 +26,7 @@ class CheckpointFile : public ::testing::Test {
     c.every = 40, c.asked = 123;
     c.wall_seconds = 0.1;
     c.mesh = 0x0123456789abcdef;
+    c.image = 0xf0e1d2c3b4a59687;
     c.scene = "name = \"x\"\n\n[mesh]\n";
     c.array = "name = \"y\"\n";
     c.ranges = {{"weight", {}, -7, 9}, {"state", {}, std::numeric_limits<std::int64_t>::min(), 0}};
@@ -76,6 +77,7 @@ TEST_F(CheckpointFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(d.asked, 123u);
   EXPECT_EQ(d.wall_seconds, 0.1);
   EXPECT_EQ(d.mesh, c.mesh);
+  EXPECT_EQ(d.image, c.image);
   ASSERT_EQ(d.ranges.size(), 2u);
   EXPECT_EQ(d.ranges[1].signal, "state");
   EXPECT_EQ(d.ranges[1].least, c.ranges[1].least);
@@ -89,6 +91,12 @@ TEST_F(CheckpointFile, ReadsBackToTheSameBits) {
   EXPECT_TRUE(same_bits(d.state.velocity, c.state.velocity));
   EXPECT_TRUE(same_bits(d.state.acceleration, c.state.acceleration));
   EXPECT_TRUE(same_bits(d.state.output, c.state.output));
+}
+
+TEST_F(CheckpointFile, AMeshAloneHasNoLineOfAnImage) {
+  c.image.reset();
+  EXPECT_EQ(whole().find(" image "), std::string::npos);
+  EXPECT_EQ(again().image, std::nullopt);
 }
 
 TEST_F(CheckpointFile, NoByteCanChangeUnseen) {

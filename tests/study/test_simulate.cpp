@@ -61,6 +61,17 @@ TEST_F(Simulate, DoesAllStepsAndShowsThemToEverybody) {
   EXPECT_GE(result.wall_seconds, 0);
 }
 
+TEST_F(Simulate, OneStepIsNotSeveral) {
+  EXPECT_EQ(run(1).sentence, "The one step is done.");
+  for (const auto& [at, kept] : {std::pair{0, "No step was done before it."},
+                                 {1, "The one step before it is kept."},
+                                 {2, "The 2 steps before it are kept."}}) {
+    ToldMotion breaks;
+    breaks.diverge_at = at;
+    EXPECT_THAT(study::simulate(breaks, 9, {}, stop).sentence, HasSubstr(kept));
+  }
+}
+
 TEST_F(Simulate, ADivergedStepIsNotRecorded) {
   motion.diverge_at = 3;
   const auto result = run(9);
