@@ -12,7 +12,7 @@ constexpr double noise = 1e-13;    // of the start's gap: less is no rise
 constexpr double same = 1e-9;      // two states back, against one: a 2-cycle
 constexpr double moving = 1e-6;    // an output that moves by less is no part of a cycle
 constexpr double standing = 1e-15; // nothing moves any more
-constexpr double lower = 0.99;     // of the gap: a fall that counts where a course goes on to its rest
+constexpr double lowered = 0.99;   // of the gap: a fall that counts where a course goes on to its rest
 constexpr std::uint64_t patience = 100;
 
 double processor_seconds() {
@@ -75,7 +75,7 @@ class Runner {
     const auto sweep = static_cast<double>(course_.sweeps);
     if (course_.laps.empty() || done() || sweep >= sparser * static_cast<double>(course_.laps.back().sweep))
       course_.laps.push_back({course_.sweeps, gap});
-    if (gap < lower * lower_gap_) lower_gap_ = gap, lower_at_ = course_.sweeps;
+    if (gap < lowered * lower_gap_) lower_gap_ = gap, lower_at_ = course_.sweeps;
     gap_ = gap;
   }
 
