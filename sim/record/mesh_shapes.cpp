@@ -8,7 +8,8 @@ namespace hopmesh::record {
 namespace {
 
 constexpr double widest = 640, highest = 480, least = 160, margin = 24;
-constexpr std::size_t most_small = 300; ///< nodes of a net of lines that get a dot each
+constexpr std::size_t most_small = 300;   ///< nodes of a net of lines that get a dot each
+constexpr std::size_t most_skin = 10'000; ///< triangles of a mesh that is asked whether it is a solid
 constexpr std::uint32_t front = 0x4f93dc, back = 0xdfb566, line = 0x1f5fa8, pinned = 0xc22f1d;
 
 // Turned by 30 degrees about its upright, then tilted by 20: constants, so that a picture is the same
@@ -36,6 +37,32 @@ Floats upright(const RunView& view, std::size_t frame) {
   nodes.node.resize(view.nodes);
   std::iota(nodes.node.begin(), nodes.node.end(), 0u);
   return positions_of(view, nodes, frame);
+}
+
+/// Each edge is walked once either way by the triangles beside it.
+bool has_no_rim(const RunView& view) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> there, reversed;
+  for (const auto& t : view.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      there.emplace_back(t[k].node, t[(k + 1) % 3].node);
+      reversed.emplace_back(there.back().second, there.back().first);
+    }
+  std::sort(there.begin(), there.end());
+  std::sort(reversed.begin(), reversed.end());
+  return !there.empty() && there == reversed && std::adjacent_find(there.begin(), there.end()) == there.end();
+}
+
+/// Six times the volume that the triangles enclose, fronts outside.
+double volume(const RunView& view, const Floats& at) {
+  double sum = 0;
+  for (const auto& t : view.triangles) {
+    const float *a = &at[t[0].node * 3], *b = &at[t[1].node * 3], *c = &at[t[2].node * 3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      sum += double{a[k]} * (double{b[l]} * double{c[m]} - double{b[m]} * double{c[l]});
+    }
+  }
+  return sum;
 }
 
 /// A face that light from the upper left falls on; its back has another colour.
@@ -66,6 +93,7 @@ MeshShapes::MeshShapes(const RunView& view)
       on_face_(view.nodes, false) {
   for (const auto& triangle : view.triangles)
     for (const ViewCorner& corner : triangle) on_face_[corner.node] = true;
+  solid_ = view.triangles.size() <= most_skin && has_no_rim(view) && volume(view, start_) > 0;
   look();
 }
 
@@ -114,7 +142,9 @@ void MeshShapes::faces(const Floats& frame, const Draw& draw) const {
   Shape face{std::vector<Seen>(3), 0, 0};
   for (const auto& triangle : view_.triangles) {
     for (std::size_t k = 0; k < 3; ++k) face.point[k] = on_paper(frame, triangle[k].node);
-    face.colour = lit(face.point[0], face.point[1], face.point[2]);
+    const Seen &a = face.point[0], &b = face.point[1], &c = face.point[2];
+    if (solid_ && (b.x - a.x) * (a.y - c.y) < (a.y - b.y) * (c.x - a.x)) continue; // its back
+    face.colour = lit(a, b, c);
     if (all_finite(face)) draw(face);
   }
 }

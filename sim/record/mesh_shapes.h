@@ -48,6 +48,7 @@ class MeshShapes {
   const RunView& view_;
   const Floats start_, end_; ///< of each node: y is up, z comes towards the viewer
   std::vector<bool> on_face_;
+  bool solid_ = false; ///< a skin without a rim, its fronts outside: backs cannot be seen
   bool flat_ = false;
   double width_ = 0, height_ = 0, scale_ = 1;
   Seen middle_;

@@ -77,6 +77,13 @@ TEST_F(Deformable, ABlockAtRestIsTheSameByEitherWay) {
   EXPECT_GT(distance(still, still, 12, 0), 1e-2) << "it sagged";
 }
 
+TEST_F(Deformable, ThePagesPicturesAreWhatTheRunsLeave) {
+  for (const std::string scene : {"tablecloth", "soft-block"})
+    EXPECT_TRUE(content_of(results_of(scene + " --no-check", scene) / "picture.svg") ==
+                content_of(HOPMESH_SOURCE_DIR "/docs/pictures/" + scene + ".svg"))
+        << scene;
+}
+
 TEST_F(Deformable, LevelsAgreeToTheBit) {
   expect_equal_levels("tablecloth --steps 3");
   expect_equal_levels("soft-block --steps 5");

@@ -50,6 +50,32 @@ TEST(MeshPicture, AMeshInAPlaneIsSeenFromStraightAhead) {
   EXPECT_THAT(svg, HasSubstr("<circle cx=\"26.00\" cy=\"456.00\" r=\"3\" fill=\"#1f5fa8\""));
 }
 
+/// A tetrahedron with its fronts outside, that has moved up.
+RunView tetrahedron() {
+  RunView view;
+  view.nodes = 4;
+  view.pinned = {false, false, false, false};
+  for (const std::array<std::uint32_t, 3>& t :
+       {std::array<std::uint32_t, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+    view.triangles.push_back({ViewCorner{t[0], 0, 0}, {t[1], 0, 0}, {t[2], 0, 0}});
+  view.frames = {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 1, 1, 0, 1, 0, 1, 1, 0, 0, 2}};
+  return view;
+}
+
+// Where nothing of a back can be seen none is drawn: order by depth would let some shine through.
+TEST(MeshPicture, ASolidShowsNoBacks) {
+  const auto faces = [](const RunView& view) { return count(drawn(view), "Z\" fill=\"#"); };
+  RunView view = tetrahedron();
+  const std::size_t seen = faces(view);
+  EXPECT_GT(seen, 0u);
+  EXPECT_LT(seen, 4u);
+  for (auto& t : view.triangles) std::swap(t[0], t[1]); // inside out: no solid, all four
+  EXPECT_EQ(faces(view), 4u);
+  view = tetrahedron();
+  view.triangles.pop_back(); // with a rim
+  EXPECT_EQ(faces(view), 3u);
+}
+
 TEST(MeshPicture, WhatHasNotMovedHasNoStart) {
   RunView view = pendulum();
   view.frames[1] = view.frames[0];
