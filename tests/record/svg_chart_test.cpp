@@ -2,7 +2,10 @@
 #include "sim/record/svg_chart.h"
 
 #include "sim/record/chart_page.h"
+#include "sim/record/output_file.h"
 #include "sim/record/svg_map.h"
+#include "tests/record/browser.h"
+#include "tests/record/folder.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -99,6 +102,34 @@ TEST(ChartPage, ShowsTheTableAndNoForeignMarkup) {
   const std::string page = chart_page("<t>", "<svg/>", parse_csv("a\n<script>\n", "t"));
   EXPECT_THAT(page, HasSubstr("<td>&lt;script&gt;</td>"));
   EXPECT_THAT(page, HasSubstr("<title>&lt;t&gt;</title>"));
+}
+
+// As a user's browser does it: to point at a mark tells its settings and its command, a click keeps them.
+TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
+  if (!browser_present()) GTEST_SKIP() << "chromium is not installed";
+  Chart chart;
+  chart.series = {{"engine",
+                   {{{1e-3, 1, false, "width 8\nhopmesh run a <b>", "hopmesh run a <b>"},
+                     {1e-4, 2, false, "width 16\nhopmesh run c", "hopmesh run c"}}}}};
+  std::string page = chart_page("t", svg_of(chart), parse_csv("a\n1\n", "t"));
+  page.replace(page.rfind("</body>"), 7, R"(<script>
+    const marks = document.querySelectorAll('[data-command]'), html = document.documentElement;
+    const told = () => [tip.firstChild.textContent, tip.querySelector('code').textContent].join('|');
+    marks[0].dispatchEvent(new MouseEvent('mouseenter'));
+    html.dataset.first = told();
+    marks[1].dispatchEvent(new MouseEvent('click', { bubbles: true }));
+    marks[0].dispatchEvent(new MouseEvent('mouseenter'));
+    html.dataset.kept = told();
+    document.body.click();
+    marks[0].dispatchEvent(new MouseEvent('mouseenter'));
+    html.dataset.free = told();</script></body>)");
+  const Folder folder;
+  write_file(folder / "chart.html", page);
+  const BrowserVisit seen = visit(folder / "chart.html");
+  EXPECT_THAT(seen.console, ::testing::IsEmpty());
+  EXPECT_THAT(seen.dom, HasSubstr("data-first=\"width 8|hopmesh run a &lt;b&gt;\""));
+  EXPECT_THAT(seen.dom, HasSubstr("data-kept=\"width 16|hopmesh run c\""));
+  EXPECT_THAT(seen.dom, HasSubstr("data-free=\"width 8|hopmesh run a &lt;b&gt;\""));
 }
 
 } // namespace
