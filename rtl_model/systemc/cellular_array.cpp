@@ -26,6 +26,12 @@ CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec
   wire_links();
 }
 
+// SystemC finds a port that goes by a search from the newest on: the other way round large arrays would take
+// minutes to end.
+CellularArray::~CellularArray() {
+  while (!cells_.empty()) cells_.pop_back();
+}
+
 void CellularArray::wire_links() {
   for (std::size_t c = 0; c < topology_.cells(); ++c)
     for (std::size_t k = 0; k < topology_.degree(c); ++k)

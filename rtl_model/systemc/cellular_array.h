@@ -8,6 +8,7 @@ namespace hopmesh::systemc {
 class CellularArray : public sc_core::sc_module {
  public:
   CellularArray(sc_core::sc_module_name name, const spec::ArraySpec& array, const spec::Topology& topology);
+  ~CellularArray() override;
 
   const spec::ArraySpec& array() const { return array_; }
   const spec::Topology& topology() const { return topology_; }
