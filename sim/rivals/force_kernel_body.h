@@ -15,8 +15,8 @@ inline double pull_scale(double k, double rest, double square) {
 // A row whose springs are further apart than any machine's lanes: read, computed and added in one loop, so
 // that roots and divisions, the slowest instructions, overlap with all others. Springs s and s + distance
 // share a node; safelen says so.
-constexpr std::ptrdiff_t most_lanes = 8;
-void pull_wide_row(const Block& row, std::ptrdiff_t nodes, const double* x, double* f) {
+inline constexpr std::ptrdiff_t most_lanes = 8;
+inline void pull_wide_row(const Block& row, std::ptrdiff_t nodes, const double* x, double* f) {
   const double *const y = x + nodes, *const z = y + nodes;
   double *const fy = f + nodes, *const fz = fy + nodes;
   const std::ptrdiff_t count = row.count, apart = row.distance;
@@ -50,7 +50,7 @@ struct Pulls {
 };
 
 // Neighbouring springs share nodes: all starts are added before all ends.
-void pull_narrow_row(const Block& row, std::ptrdiff_t nodes, const double* position, double* force) {
+inline void pull_narrow_row(const Block& row, std::ptrdiff_t nodes, const double* position, double* force) {
   Pulls pulls;
   for (std::ptrdiff_t p = 0; p < 3; ++p) {
     const double *const from = position + p * nodes, *const to = from + row.distance;
@@ -66,7 +66,7 @@ void pull_narrow_row(const Block& row, std::ptrdiff_t nodes, const double* posit
   }
 }
 
-void pull_singles(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
+inline void pull_singles(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
   Pulls pulls;
   for (std::ptrdiff_t p = 0; p < 3; ++p)
     for (std::ptrdiff_t s = 0; s < block.count; ++s)
@@ -79,7 +79,7 @@ void pull_singles(const Block& block, std::ptrdiff_t nodes, const double* positi
     }
 }
 
-void pull_block(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
+inline void pull_block(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
   if (block.distance == 0) return pull_singles(block, nodes, position, force);
   if (block.distance < most_lanes)
     pull_narrow_row(block, nodes, position + block.node, force + block.node);
@@ -87,8 +87,8 @@ void pull_block(const Block& block, std::ptrdiff_t nodes, const double* position
     pull_wide_row(block, nodes, position + block.node, force + block.node);
 }
 
-void kick_all(std::ptrdiff_t count, double kept, double time, const double* force, const double* inverse_mass,
-              const double* external, double* velocity) {
+inline void kick_all(std::ptrdiff_t count, double kept, double time, const double* force,
+                     const double* inverse_mass, const double* external, double* velocity) {
 #pragma omp simd
   for (std::ptrdiff_t k = 0; k < count; ++k)
     velocity[k] = kept * velocity[k] + time * (force[k] * inverse_mass[k] + external[k]);
