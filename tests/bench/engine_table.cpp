@@ -97,19 +97,25 @@ void print_curve(const Results& r) {
 
 // ---- picture: products a second over products a byte, both logarithmic
 
+constexpr int first_octave = -4, last_octave = 4; ///< of products a byte
+const double rightmost = std::exp2(last_octave);
+
 struct Frame {
   double left = 70, top = 40, width = 560, height = 300;
-  double x(double products_a_byte) const { return left + width * (std::log2(products_a_byte) + 4) / 6; }
+  double x(double products_a_byte) const {
+    return left + width * (std::log2(products_a_byte) - first_octave) / (last_octave - first_octave);
+  }
   double y(double products) const { return top + height * (1 - (std::log10(products) - 9) / 3); }
 };
 
 std::string roof_line(const Frame& f, double bytes, double peak, const std::string& name) {
-  const double knee = std::min(4.0, peak / bytes), low = std::max(1.0 / 16, 1e9 / bytes);
+  const double knee = std::min(rightmost, peak / bytes), low = std::max(std::exp2(first_octave), 1e9 / bytes);
   return fmt::format("<polyline points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\" fill=\"none\" "
                      "stroke=\"#888888\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#555555\" "
                      "font-size=\"11\">{} {:.0f} GB/s</text>\n",
-                     f.x(low), f.y(low * bytes), f.x(knee), f.y(knee * bytes), f.x(4),
-                     f.y(std::min(peak, 4 * bytes)), f.x(0.07) + 4, f.y(0.07 * bytes) - 6, name, bytes / 1e9);
+                     f.x(low), f.y(low * bytes), f.x(knee), f.y(knee * bytes), f.x(rightmost),
+                     f.y(std::min(peak, rightmost * bytes)), f.x(0.07) + 4, f.y(0.07 * bytes) - 6, name,
+                     bytes / 1e9);
 }
 
 std::string dot(const Frame& f, double products_a_byte, double products, const std::string& name,
@@ -137,7 +143,7 @@ std::string picture(const Results& r) {
                     "x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#666666\">{5} G/s</text>\n",
                     f.left, f.y(std::pow(10, k)), f.left + f.width, f.left - 6, f.y(std::pow(10, k)) + 4,
                     std::pow(10, k - 9));
-  for (int k = -4; k <= 2; ++k)
+  for (int k = first_octave; k <= last_octave; ++k)
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\" fill=\"#666666\">{}</text>\n",
                        f.x(std::pow(2, k)), f.top + f.height + 20,
                        k < 0 ? fmt::format("1/{}", 1 << -k) : std::to_string(1 << k));
