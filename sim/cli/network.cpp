@@ -3,6 +3,7 @@
 #include "sim/cli/progress.h"
 #include "sim/record/matrix_market.h"
 #include "sim/record/npy.h"
+#include "sim/study/counted.h"
 #include "sim/study/simulation.h"
 
 #include <fmt/format.h>
@@ -57,9 +58,10 @@ int network(NetworkOptions& o) {
   }
   write_files(o.out, motion.last_step());
   const study::StepRow& row = result.rows.back();
-  fmt::print("{} step {}: {} weights, {} sweeps, {}; written to {}\n", p.inputs.scene.name, o.step,
-             motion.last_step().network.W.nonZeros(), row.sweeps,
-             row.converged ? "converged" : "stopped by max_sweeps", o.out);
+  fmt::print("{} step {}: {}, {}, {}; written to {}\n", p.inputs.scene.name, o.step,
+             study::counted(static_cast<std::uint64_t>(motion.last_step().network.W.nonZeros()), "weight"),
+             study::counted(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps",
+             o.out);
   if (p.inputs.scene.motion.formulation == scene::Formulation::incremental)
     fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
   return done;

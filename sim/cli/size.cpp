@@ -6,6 +6,7 @@
 #include "sim/record/running_check.h"
 #include "sim/rivals/physics.h"
 #include "sim/study/array_info.h"
+#include "sim/study/counted.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -178,8 +179,8 @@ void print_lanes(const SizeOptions& o, const Prepared& p, const study::Sizing& s
 void print(const SizeOptions& o, const Prepared& p, const study::Sizing& sizing, const Target& target,
            const SizeFound& found, const fs::path& folder) {
   const SizeEvidence &size = found.evidence[0], &file = found.evidence[1];
-  fmt::print("{}: at most {} m rms from the {} after {} steps\n", p.inputs.scene.name, o.error, o.against,
-             p.inputs.scene.motion.steps);
+  fmt::print("{}: at most {} m rms from the {} after {}\n", p.inputs.scene.name, o.error, o.against,
+             study::counted(static_cast<std::uint64_t>(p.inputs.scene.motion.steps), "step"));
   if (o.against == "truth")
     fmt::print("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
                target.reached, target.floor);
@@ -188,10 +189,10 @@ void print(const SizeOptions& o, const Prepared& p, const study::Sizing& sizing,
   fmt::print("Formats tried: {}; {} met the error, {} of them with less silicon than this\n", found.tried,
              found.met, found.cheaper);
   const std::string command = file_command(o, folder);
-  fmt::print("With the scene's relaxation: {:.3g} m, {} sweeps\n  {}\n", file.row.error,
-             study::grouped(file.row.sweeps), command);
-  fmt::print("With the least of its own: {:.3g} m, {} sweeps\n  {}{}\n", size.row.error,
-             study::grouped(size.row.sweeps), command, relaxation_words(sizing, found));
+  fmt::print("With the scene's relaxation: {:.3g} m, {}\n  {}\n", file.row.error,
+             study::counted(file.row.sweeps, "sweep"), command);
+  fmt::print("With the least of its own: {:.3g} m, {}\n  {}{}\n", size.row.error,
+             study::counted(size.row.sweeps, "sweep"), command, relaxation_words(sizing, found));
   fmt::print("Results\n  {}\n  {}\n", (folder / "size.toml").string(), (folder / "size.csv").string());
 }
 
