@@ -1,6 +1,7 @@
 #include "sim/cli/step_problem.h"
 
 #include "sim/study/image_force.h"
+#include "sim/study/reference_check.h"
 
 #include <cmath>
 
@@ -10,21 +11,6 @@ namespace {
 
 using reference::Vector;
 using rivals::quadratic::Problem;
-
-Vector vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-reference::State state_of(const study::StepState& before) {
-  reference::State state;
-  state.position = vector_of(before.position);
-  state.velocity = vector_of(before.velocity);
-  state.acceleration = vector_of(before.acceleration);
-  state.previous_position = vector_of(before.previous_position);
-  state.previous_velocity = vector_of(before.previous_velocity);
-  state.step = before.step;
-  return state;
-}
 
 Problem problem_of(const reference::Network& network, const Vector& start, const study::BuiltMesh& mesh) {
   std::vector<std::uint32_t> component(static_cast<std::size_t>(start.size()));
@@ -37,8 +23,8 @@ reference::Increment increment_of(const Prepared& p, const reference::State& sta
   if (time_step > 0) motion.time_step = time_step;
   if (p.inputs.scene.force.image) {
     study::ImageForce image(p.inputs.scene);
-    motion.node_force =
-        vector_of(image.at({state.position.data(), state.position.data() + state.position.size()}));
+    const auto& pull = image.at({state.position.data(), state.position.data() + state.position.size()});
+    motion.node_force = Eigen::Map<const Vector>(pull.data(), static_cast<Eigen::Index>(pull.size()));
   }
   return reference::increment(p.mesh->mesh(), motion, state);
 }
@@ -61,7 +47,7 @@ Problem step_problem(const study::ReferenceMotion& motion, const study::StepStat
                      const StepStart& how) {
   const reference::Step& step = motion.last_step();
   const bool incremental = p.inputs.scene.motion.formulation == scene::Formulation::incremental;
-  const reference::State state = state_of(before);
+  const reference::State state = study::state_of(before);
   if (how.still) {
     if (!incremental)
       throw scene::input_error("", 0, "--still", "a scene of the probe", "formulation = \"incremental\"");

@@ -17,6 +17,20 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
   return order;
 }
 
+reference::State state_of(const StepState& state) {
+  const auto vector = [](const std::vector<double>& values) -> Vector {
+    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  reference::State result;
+  result.position = vector(state.position);
+  result.velocity = vector(state.velocity);
+  result.acceleration = vector(state.acceleration);
+  result.previous_position = vector(state.previous_position);
+  result.previous_velocity = vector(state.previous_velocity);
+  result.step = state.step;
+  return result;
+}
+
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
                    reference::Output output) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
@@ -38,16 +52,8 @@ ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh,
       state_(reference::initial_state(mesh.mesh())) {}
 
 void ReferenceCheck::begin(const StepState& state, const double* node_force) {
-  const auto vector = [](const std::vector<double>& values) -> Vector {
-    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-  };
-  state_.position = vector(state.position);
-  state_.velocity = vector(state.velocity);
-  state_.acceleration = vector(state.acceleration);
-  state_.previous_position = vector(state.previous_position);
-  state_.previous_velocity = vector(state.previous_velocity);
+  state_ = state_of(state);
   state_.V = by_node(state.output);
-  state_.step = state.step;
   if (node_force)
     motion_.node_force =
         Eigen::Map<const Vector>(node_force, static_cast<Eigen::Index>(state.position.size()));

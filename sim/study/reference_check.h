@@ -11,6 +11,9 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
 /// A scene's motion as the output stage of an array makes it.
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
 
+/// Where a step starts from, as the reference has it; its V, numbered over all nodes, stays empty.
+reference::State state_of(const StepState& state);
+
 /// Does a network that does not come to rest swing between two states? Of what the next sweep changes, the
 /// share that is still done and undone `swings` later: 1 for ever, 0 for a walk in one direction or a swing
 /// that dies.
