@@ -21,7 +21,7 @@ struct Arrays {
         sc_fixed("sc_fixed", inputs.array, mesh.topology()), steps(inputs.scene, mesh, production) {}
 
   scene::Inputs inputs;
-  study::BuiltMesh mesh;
+  levels::BuiltMesh mesh;
   tests::Dut production;
   ScFixedArray sc_fixed;
   FlagSteps steps;

@@ -26,7 +26,7 @@ struct Arrays {
   }
 
   scene::Inputs inputs;
-  study::BuiltMesh mesh;
+  levels::BuiltMesh mesh;
   tests::Dut production;
   FlagSteps steps;
   FlagNetwork network;

@@ -1,5 +1,5 @@
 // Scene files: every key arrives, what is left out has its default, names and paths are found.
-#include "sim/scene/shipped.h"
+#include "sim/input/shipped.h"
 #include "tests/scene/scene_files.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Descriptions as text: what is written reads back equal, to the last bit of every number.
 #include "rtl_model/spec/array_rules.h"
-#include "sim/scene/shipped.h"
+#include "sim/input/shipped.h"
 #include "tests/scene/scene_files.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // What may be lowered on an array: every setting on the way can be built, and means what its words say.
 #include "sim/study/sizing.h"
 
-#include "sim/study/array_info.h"
-#include "tests/study/small_scenes.h"
+#include "sim/run/array_info.h"
+#include "tests/levels/small_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST_F(SizingTest, MultiplierBitsByHand) {
 
 TEST_F(SizingTest, AnAccumulatorOfItsOwnIsRefused) {
   inputs.array.exact_accumulator = false;
-  EXPECT_THROW(Sizing(inputs, mesh), scene::InputError);
+  EXPECT_THROW(Sizing(inputs, mesh), input::InputError);
 }
 
 } // namespace

@@ -1,0 +1,23 @@
+// The exact motions that a study's points are measured against. Points of the same physics ask for the same
+// one: it is worked out once and lies in the study's folder.
+#pragma once
+
+#include "sim/study/point_runner.h"
+
+#include <filesystem>
+
+namespace hopmesh::study {
+
+class TruthStore {
+ public:
+  explicit TruthStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// At each of the times, ascending, s; empty where SUNDIALS gives up.
+  study::Truth at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                  const std::vector<double>& times) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+} // namespace hopmesh::study
