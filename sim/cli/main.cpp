@@ -1,7 +1,7 @@
 // The program: verbs, and the one place where errors become a line and an exit code.
 #include "sim/cli/options.h"
 #include "sim/files/output_file.h"
-#include "study_version.h"
+#include "version.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -51,8 +51,8 @@ int program(int argc, char** argv) {
   CLI::App app(
       "A bit-accurate, cycle-level emulator of a neural-network machine that moves deformable meshes.",
       "hopmesh");
-  app.set_version_flag("--version", fmt::format("hopmesh {} ({}, {}, {})", study::version, study::commit,
-                                                study::build_type, study::compiler));
+  app.set_version_flag("--version", fmt::format("hopmesh {} ({}, {}, {})", run::version, run::commit,
+                                                run::build_type, run::compiler));
   app.require_subcommand(1);
   app.footer(
       "Example:\n  hopmesh run flag-400 --out out/flag-400\nhopmesh VERB --help tells more of a verb.");

@@ -64,14 +64,15 @@ void note_rows(const std::vector<Contender>& contenders, const std::vector<level
                Comparison& result) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     note(result.levels[k], rows[k]);
-    if (rows[k].max_stretch < most_stretch) continue;
+    if (rows[k].max_stretch < run::most_stretch) continue;
     result.outcome = run::Outcome::diverged;
     result.sentence = fmt::format("{} diverged in step {}: a spring is {:.3g} times its length.",
                                   contenders[k].level, rows[k].step, rows[k].max_stretch);
   }
 }
 
-Difference difference(const Contender& a, const levels::StepRow& row_a, const Contender& b, const levels::StepRow& row_b) {
+Difference difference(const Contender& a, const levels::StepRow& row_a, const Contender& b,
+                      const levels::StepRow& row_b) {
   Difference d;
   d.level[0] = a.level, d.level[1] = b.level;
   d.step = row_a.step;
@@ -83,17 +84,17 @@ Difference difference(const Contender& a, const levels::StepRow& row_a, const Co
 // All fixed levels of a comparison after one step: the first of them, and the others held against it.
 class Round {
  public:
-  Round(const std::vector<Contender>& contenders, const std::vector<levels::StepRow>& rows, const levels::BuiltMesh& mesh,
-        const spec::ArraySpec& array)
+  Round(const std::vector<Contender>& contenders, const std::vector<levels::StepRow>& rows,
+        const levels::BuiltMesh& mesh, const spec::ArraySpec& array)
       : contenders_(contenders), rows_(rows), mesh_(mesh) {
     for (std::size_t k = 0; k < contenders.size(); ++k)
       if (contenders[k].array) fixed_.push_back(k), buses_.push_back(&contenders[k].port->bus());
     if (fixed_.size() < 2) return;
-    const cosim::BusArray first(*buses_[0], mesh.topology());
+    const BusArray first(*buses_[0], mesh.topology());
     run_sweeps_ = first.read(HM_REG_SWEEPS);
     const std::uint64_t high = first.read(HM_REG_CYCLES_HI);
     run_cycles_ = high << 32 | first.read(HM_REG_CYCLES_LO);
-    job_ = cosim::loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
+    job_ = loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
   }
 
   std::size_t pairs() const { return fixed_.empty() ? 0 : fixed_.size() - 1; }
@@ -104,7 +105,7 @@ class Round {
     for (std::size_t k = 1; k < fixed_.size(); ++k)
       if (auto d = difference_of_answers(k)) return d;
     if (pairs() == 0) return std::nullopt;
-    const cosim::Lockstep l = cosim::run_in_lockstep(buses_, job_, run_sweeps_);
+    const Lockstep l = run_in_lockstep(buses_, job_, run_sweeps_);
     if (!l.where && l.outputs[0] == of(0).array->rest_raw()) return std::nullopt;
     Difference d = between(l.where ? l.other : 0);
     if (!l.where) d.level[1] += " sweep by sweep";
@@ -124,8 +125,8 @@ class Round {
   std::optional<Difference> difference_of_answers(std::size_t k) const {
     const levels::StepRow &a = rows_[fixed_[0]], &b = rows_[fixed_[k]];
     const bool same_codes = of(0).array->rest_raw() == of(k).array->rest_raw();
-    const cosim::Buses two{buses_[0], buses_[k]};
-    const std::string memory = cosim::memory_difference(two, mesh_.topology());
+    const Buses two{buses_[0], buses_[k]};
+    const std::string memory = memory_difference(two, mesh_.topology());
     if (same_codes && a.sweeps == b.sweeps && a.cycles == b.cycles && memory.empty()) return std::nullopt;
     Difference d = between(k);
     d.memory = memory;
@@ -137,8 +138,8 @@ class Round {
   const std::vector<levels::StepRow>& rows_;
   const levels::BuiltMesh& mesh_;
   std::vector<std::size_t> fixed_;
-  cosim::Buses buses_;
-  cosim::ArrayJob job_;
+  Buses buses_;
+  ArrayJob job_;
   std::uint32_t run_sweeps_ = 0;
   std::uint64_t run_cycles_ = 0;
 };
@@ -151,7 +152,7 @@ void compare_codes(const std::vector<Contender>& contenders, const std::vector<l
     result.pairs = round.pairs();
     result.difference = round.judge();
     if (!result.difference) result.sweeps_compared += round.sweeps();
-  } catch (const cosim::BusFault& fault) {
+  } catch (const BusFault& fault) {
     if (fault.error != HM_ERROR_STOPPED) throw;
     result.outcome = run::Outcome::interrupted;
   }
@@ -172,8 +173,9 @@ void note_distances(const std::vector<Contender>& contenders, Comparison& result
 
 } // namespace
 
-Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh, const spec::ArraySpec& array,
-                   std::uint64_t steps, const std::function<void(const levels::StepRow&)>& after_step,
+Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh,
+                   const spec::ArraySpec& array, std::uint64_t steps,
+                   const std::function<void(const levels::StepRow&)>& after_step,
                    const std::atomic<bool>& stop) {
   Comparison result;
   for (const Contender& c : contenders) result.levels.push_back({c.level, 0, 0, 0, 0, {}, 0, 0});
@@ -213,20 +215,20 @@ std::string wave_command(const Difference& d, const std::string& inputs) {
          fmt::format("{}:{}c --wave-cells {}", at - std::min(at, around), at + around, d.where->cell);
 }
 
-std::string run::text_of(const Difference& d, const std::string& inputs) {
+std::string text_of(const Difference& d, const std::string& inputs) {
   std::string text =
       fmt::format("{} and {} differ first in step {}: {} sweeps and {} cycles against {} and {}\n",
                   d.level[0], d.level[1], d.step, d.sweeps[0], d.cycles[0], d.sweeps[1], d.cycles[1]);
   if (!d.memory.empty()) text += fmt::format("  their memories differ, {}\n", d.memory);
   if (d.where)
-    text += run::text_of(*d.where, d.level[0], d.level[1]);
+    text += text_of(*d.where, d.level[0], d.level[1]);
   else
     text += "  run again from the same start, every output is the same after every sweep: the fault does not "
             "repeat\n";
   return text + fmt::format("  a wave around it: {}\n", wave_command(d, inputs));
 }
 
-std::string run::text_of(const LevelReport& r) {
+std::string text_of(const LevelReport& r) {
   std::string text = fmt::format("{}: {}", r.level, run::counted(r.sweeps, "sweep"));
   if (r.cycles > 0) text += fmt::format(", {} cycles", run::grouped(r.cycles)); // the reference has none
   text += "\n";
@@ -246,12 +248,12 @@ std::string run::text_of(const LevelReport& r) {
 
 } // namespace
 
-std::string run::text_of(const Comparison& c, const std::string& inputs, const spec::ArraySpec& array) {
+std::string text_of(const Comparison& c, const std::string& inputs, const spec::ArraySpec& array) {
   const auto end = inputs[0] == '\'' ? inputs.find("' ") : inputs.find(' '); // of the scene's word
   std::string text = fmt::format("{} on array {}, {}. {}\n", inputs.substr(0, end), array.name,
                                  run::counted(c.steps, "step"), c.sentence);
-  for (const LevelReport& report : c.levels) text += run::text_of(report);
-  if (c.difference) return text + run::text_of(*c.difference, inputs);
+  for (const LevelReport& report : c.levels) text += text_of(report);
+  if (c.difference) return text + text_of(*c.difference, inputs);
   if (c.pairs > 0)
     text += fmt::format("Fixed levels: equal after each of {} sweeps, every code; sweep and cycle counts of "
                         "every step too.\n",

@@ -51,12 +51,14 @@ struct Comparison {
 /// Advances all contenders together; a reference must come first. After each step the fixed levels relax its
 /// network once more, in lockstep, and are compared after every sweep (with several expansions: that of the
 /// last one). `after_step` is told the number of steps done.
-Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh, const spec::ArraySpec& array,
-                   std::uint64_t steps, const std::function<void(const levels::StepRow&)>& after_step,
+Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh,
+                   const spec::ArraySpec& array, std::uint64_t steps,
+                   const std::function<void(const levels::StepRow&)>& after_step,
                    const std::atomic<bool>& stop);
 
 /// The comparison for people, a few lines. `inputs`: SCENE and options as a command line has them, for the
 /// command that cuts a wave around a difference.
-std::string run::text_of(const Comparison& comparison, const std::string& inputs, const spec::ArraySpec& array);
+std::string text_of(const Comparison& comparison, const std::string& inputs,
+                         const spec::ArraySpec& array);
 
 } // namespace hopmesh::cosim

@@ -24,15 +24,14 @@ struct FirstDifference {
 };
 
 /// The divergence in the mesh's words: nodes for cells.
-FirstDifference in_mesh(const cosim::Divergence& divergence, const levels::BuiltMesh& mesh,
-                        const cosim::ArrayJob& job);
+FirstDifference in_mesh(const Divergence& divergence, const levels::BuiltMesh& mesh, const ArrayJob& job);
 
 /// Where two arrays part on a job that both have loaded: sweep by sweep, then, if that shows nothing, by
 /// longer and longer runs. Nothing if they never do. The arrays must be idle.
-std::optional<FirstDifference> first_difference(const cosim::Buses& two, const levels::BuiltMesh& mesh,
-                                                const cosim::ArrayJob& job, std::uint32_t sweeps);
+std::optional<FirstDifference> first_difference(const Buses& two, const levels::BuiltMesh& mesh,
+                                                const ArrayJob& job, std::uint32_t sweeps);
 
 /// Several lines: sweep, cycle, node, neuron, both codes, and every input one update earlier.
-std::string run::text_of(const FirstDifference& difference, const std::string& a, const std::string& b);
+std::string text_of(const FirstDifference& difference, const std::string& a, const std::string& b);
 
 } // namespace hopmesh::cosim

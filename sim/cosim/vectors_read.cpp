@@ -3,8 +3,8 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/input/input_error.h"
-#include "sim/scene/limits.h"
 #include "sim/input/whole_file.h"
+#include "sim/scene/limits.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -61,7 +61,7 @@ void EnginePort::finish() {
   if (wave_) wave_->finish();
 }
 
-std::vector<levels::SignalRange> EnginePort::inner_ranges() const {
+std::vector<SignalRange> EnginePort::inner_ranges() const {
   const engine::Engine& e = device_.engine();
   const engine::Extremes& x = e.extremes();
   const auto sum = spec::accumulator_format(e.array(), e.topology().most_taps());

@@ -1,13 +1,13 @@
 // The level `engine`: the native array behind the firmware's bus.
 #pragma once
 
-#include "sim/levels/waves/engine_wave.h"
 #include "sim/engine/device.h"
 #include "sim/levels/array_port.h"
+#include "sim/levels/waves/engine_wave.h"
 
 namespace hopmesh::levels {
 
-class EnginePort : public levels::ArrayPort {
+class EnginePort : public ArrayPort {
  public:
   /// `stop` ends a relaxation between two sweeps.
   EnginePort(const spec::ArraySpec& array, const spec::Topology& topology, const engine::Options& options,
@@ -19,7 +19,7 @@ class EnginePort : public levels::ArrayPort {
   void begin_step(std::uint64_t step) override;
   void end_step(std::uint64_t step) override;
   void finish() override;
-  std::vector<levels::SignalRange> inner_ranges() const override;
+  std::vector<SignalRange> inner_ranges() const override;
   std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:

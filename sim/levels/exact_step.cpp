@@ -12,17 +12,17 @@ scene::Scene without_friction(scene::Scene scene) {
 
 } // namespace
 
-ExactStep::ExactStep(const scene::Scene& scene, const levels::BuiltMesh& mesh)
+ExactStep::ExactStep(const scene::Scene& scene, const BuiltMesh& mesh)
     : rival_(scene.incremental.rule, without_friction(scene), mesh), friction_(scene.motion.friction) {}
 
-levels::StepRow ExactStep::advance() {
-  levels::StepRow row = rival_.advance();
+StepRow ExactStep::advance() {
+  StepRow row = rival_.advance();
   if (friction_ == 1) return row;
-  levels::StepState state = rival_.state();
+  StepState state = rival_.state();
   for (double& v : state.velocity) v *= friction_;
   rival_.restore(state, {});
   row.kinetic *= friction_ * friction_;
-  row.hash = levels::state_hash(state);
+  row.hash = state_hash(state);
   return row;
 }
 

@@ -6,15 +6,15 @@
 
 namespace hopmesh::levels {
 
-class ExactStep : public levels::Motion {
+class ExactStep : public Motion {
  public:
   /// Of an incremental scene; the mesh must outlive it.
-  ExactStep(const scene::Scene& scene, const levels::BuiltMesh& mesh);
+  ExactStep(const scene::Scene& scene, const BuiltMesh& mesh);
 
-  levels::StepRow advance() override;
+  StepRow advance() override;
   const std::vector<double>& positions() const override { return rival_.positions(); }
-  levels::StepState state() const override { return rival_.state(); }
-  void restore(const levels::StepState& state, const std::vector<levels::SignalRange>& seen) override {
+  StepState state() const override { return rival_.state(); }
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override {
     rival_.restore(state, seen);
   }
 

@@ -1,7 +1,7 @@
 #include "sim/levels/image_force.h"
 
-#include "sim/scene/scene_reader.h"
 #include "sim/input/whole_file.h"
+#include "sim/scene/scene_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -103,11 +103,12 @@ double ReferenceCheck::network_difference(const reference::Network& network, con
   for (std::uint32_t c = 0; c < m.cells; ++c)
     for (std::uint32_t p = 0; p < m.components; ++p) {
       const std::uint32_t row = m.node_of_cell[c] * m.components + p;
-      cosim::compare(network.I[row], built.bias[c * m.components + p]);
+      compare(network.I[row], built.bias[c * m.components + p]);
       const double* weight = built.weight + hm_row_offset(&m, c, p);
       for (std::uint32_t t = 0; t < hm_row_length(&m, c); ++t) {
         const std::uint32_t source = t < m.components ? c : m.link_to[m.first_link[c] + t / m.components - 1];
-        cosim::compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components), weight[t]);
+        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components),
+                       weight[t]);
       }
     }
   return largest > 0 ? difference / largest : 0;

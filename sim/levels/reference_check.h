@@ -1,8 +1,8 @@
 // Beside every step of an array: the double reference's answer to the very same step.
 #pragma once
 
-#include "sim/reference/reference.h"
 #include "sim/levels/motion.h"
+#include "sim/reference/reference.h"
 
 namespace hopmesh::levels {
 

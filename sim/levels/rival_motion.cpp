@@ -18,7 +18,7 @@ rivals::State state_of(const std::vector<double>& position, const std::vector<do
 
 } // namespace
 
-RivalMotion::RivalMotion(const std::string& name, const scene::Scene& scene, const levels::BuiltMesh& mesh)
+RivalMotion::RivalMotion(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
     : mesh_(mesh), physics_(mesh.mesh(), rivals::surroundings_of(scene)), time_step_(scene.motion.time_step),
       method_(rivals::make_method(name, physics_, time_step_)) {
   keep();
@@ -29,24 +29,24 @@ void RivalMotion::keep() {
   velocity_ = values(method_->velocities());
 }
 
-levels::StepRow RivalMotion::advance() {
+StepRow RivalMotion::advance() {
   try {
     method_->advance();
   } catch (const rivals::Diverged& lost) {
-    throw levels::Diverged(lost.what());
+    throw Diverged(lost.what());
   }
   keep();
-  levels::StepRow row;
+  StepRow row;
   row.step = step_++;
   row.time = static_cast<double>(step_) * time_step_;
   row.converged = true; // an iteration that does not converge has thrown
-  levels::measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
-  row.hash = levels::state_hash(state());
+  measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
+  row.hash = state_hash(state());
   return row;
 }
 
-levels::StepState RivalMotion::state() const {
-  levels::StepState s;
+StepState RivalMotion::state() const {
+  StepState s;
   s.step = step_;
   s.position = position_;
   s.velocity = velocity_;
@@ -57,7 +57,7 @@ levels::StepState RivalMotion::state() const {
   return s;
 }
 
-void RivalMotion::restore(const levels::StepState& state, const std::vector<levels::SignalRange>&) {
+void RivalMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
   if (state.position.size() != position_.size()) throw std::logic_error("the state of another mesh");
   step_ = state.step;
   const rivals::State now = state_of(state.position, state.velocity);

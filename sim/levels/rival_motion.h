@@ -1,25 +1,25 @@
 // A rival as a motion, so that run and study take it as they take a level of the array.
 #pragma once
 
-#include "sim/rivals/method.h"
 #include "sim/levels/motion.h"
+#include "sim/rivals/method.h"
 
 namespace hopmesh::levels {
 
-class RivalMotion : public levels::Motion {
+class RivalMotion : public Motion {
  public:
   /// `name`: one of rivals::names(). The mesh must outlive it.
-  RivalMotion(const std::string& name, const scene::Scene& scene, const levels::BuiltMesh& mesh);
+  RivalMotion(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh);
 
-  levels::StepRow advance() override;
+  StepRow advance() override;
   const std::vector<double>& positions() const override { return position_; }
-  levels::StepState state() const override;
-  void restore(const levels::StepState& state, const std::vector<levels::SignalRange>& seen) override;
+  StepState state() const override;
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
 
  private:
   void keep();
 
-  const levels::BuiltMesh& mesh_;
+  const BuiltMesh& mesh_;
   const rivals::Physics physics_;
   const double time_step_;
   std::unique_ptr<rivals::Method> method_;

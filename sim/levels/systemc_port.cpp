@@ -90,7 +90,7 @@ void SystemcPort::end_step(std::uint64_t step) {
   wave_->end_step(step);
 }
 
-std::vector<levels::SignalRange> SystemcPort::inner_ranges() const {
+std::vector<SignalRange> SystemcPort::inner_ranges() const {
   const spec::ArraySpec& array = device_.cells.array();
   const systemc::Extremes& e = device_.cells.extremes;
   return {{"accumulator", spec::accumulator_format(array, device_.cells.topology().most_taps()), e.least_sum,

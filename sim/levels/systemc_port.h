@@ -2,8 +2,8 @@
 // SystemC.
 #pragma once
 
-#include "sim/levels/waves/wave.h"
 #include "sim/levels/array_port.h"
+#include "sim/levels/waves/wave.h"
 
 #include <atomic>
 #include <tlm_utils/simple_initiator_socket.h>
@@ -12,7 +12,7 @@ namespace hopmesh::levels {
 
 /// Owns a device and the host's side of its bus. Time passes while the firmware waits; transfers before that
 /// add up in a local delay (loosely timed), so START takes effect when the bus would have delivered it.
-class SystemcPort : public sc_core::sc_module, public levels::ArrayPort {
+class SystemcPort : public sc_core::sc_module, public ArrayPort {
  public:
   SC_HAS_PROCESS(SystemcPort);
   SystemcPort(sc_core::sc_module_name name, const spec::ArraySpec& array, const spec::Topology& topology,
@@ -21,7 +21,7 @@ class SystemcPort : public sc_core::sc_module, public levels::ArrayPort {
   const hm_bus& bus() override { return bus_; }
   void begin_step(std::uint64_t step) override;
   void end_step(std::uint64_t step) override;
-  std::vector<levels::SignalRange> inner_ranges() const override;
+  std::vector<SignalRange> inner_ranges() const override;
   std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:

@@ -68,9 +68,10 @@ Vector rounded(const Vector& V, double last_place) {
 
 } // namespace
 
-StepArray::StepArray(const solvers::Problem& whole, const cli::Prepared& prepared)
+StepArray::StepArray(const solvers::Problem& whole, const levels::Prepared& prepared)
     : whole_(whole), prepared_(prepared),
-      port_(cli::make_port("engine", prepared.inputs.array, prepared.mesh->topology(), {{}, {}, true})),
+      port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(),
+                                              {{}, {}, true, false})),
       there_(port_->bus(), prepared.mesh->topology()), buffer_(4096) {}
 
 // As the firmware loads it, so that no format is interpreted twice.
@@ -122,16 +123,15 @@ std::optional<solvers::Problem> StepArray::loaded() const {
   return solvers::reached(problem);
 }
 
-solvers::Course run_array(StepArray& array, const solvers::Problem& problem,
-                            const solvers::Answer& answer, solvers::Limits limits,
-                            const std::atomic<bool>& stop) {
+solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
+                          solvers::Limits limits, const std::atomic<bool>& stop) {
   limits.to_rest = true;
   const auto make = [&] { return std::make_unique<ArraySolver>(problem, array); };
   return solvers::run_solver("array", make, problem, answer, limits, stop);
 }
 
-std::string stall_text(const StepArray& array, const solvers::Course& course,
-                       const solvers::Problem& problem, const solvers::Answer& answer) {
+std::string stall_text(const StepArray& array, const solvers::Course& course, const solvers::Problem& problem,
+                       const solvers::Answer& answer) {
   if (course.sweeps == 0) return "";
   const double place = array.last_place();
   const Vector off = (course.lowest - answer.V) / place;
@@ -145,8 +145,8 @@ std::string stall_text(const StepArray& array, const solvers::Course& course,
       fmt::format("  the answer in whole last places has a gap of {:.2g}", share(rounded(answer.V, place)));
   const auto loaded = array.loaded();
   if (loaded && loaded->I.size() == problem.I.size() && solvers::is_convex(*loaded))
-    text += fmt::format(", that of the weights as loaded one of {:.2g}",
-                        share(solvers::best_answer(*loaded).V));
+    text +=
+        fmt::format(", that of the weights as loaded one of {:.2g}", share(solvers::best_answer(*loaded).V));
   return text + fmt::format("; {} cycles a sweep\n", array.cycles_per_sweep());
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "firmware/driver.h"
-#include "sim/cli/options.h"
 #include "sim/cosim/bus_array.h"
+#include "sim/levels/level.h"
 #include "sim/networks/solvers/race.h"
 
 namespace hopmesh::networks {
@@ -13,7 +13,7 @@ namespace hopmesh::networks {
 class StepArray {
  public:
   /// `whole`: the network over all nodes. It and `prepared` must outlive this.
-  StepArray(const solvers::Problem& whole, const cli::Prepared& prepared);
+  StepArray(const solvers::Problem& whole, const levels::Prepared& prepared);
 
   /// The first loads weights, biases and the start. Throws study::Stopped where the user stops it, and
   /// quadratic::Unfit where its outputs are binary.
@@ -28,7 +28,7 @@ class StepArray {
   void load_and_sweep();
 
   const solvers::Problem& whole_;
-  const cli::Prepared& prepared_;
+  const levels::Prepared& prepared_;
   const std::unique_ptr<levels::ArrayPort> port_;
   const cosim::BusArray there_;
   hm_driver driver_{};
@@ -38,12 +38,11 @@ class StepArray {
 };
 
 /// One course of it, on until it stands still; `problem` is what reached() leaves of the array's.
-solvers::Course run_array(StepArray& array, const solvers::Problem& problem,
-                                    const solvers::Answer& answer, solvers::Limits limits,
-                                    const std::atomic<bool>& stop);
+solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
+                          solvers::Limits limits, const std::atomic<bool>& stop);
 
 /// Where it came lowest, and what keeps it from the answer, in lines for people.
-std::string stall_text(const StepArray& array, const solvers::Course& course,
-                       const solvers::Problem& problem, const solvers::Answer& answer);
+std::string stall_text(const StepArray& array, const solvers::Course& course, const solvers::Problem& problem,
+                       const solvers::Answer& answer);
 
 } // namespace hopmesh::networks

@@ -73,7 +73,7 @@ class ArrayLevel : public NetworkLevel {
 
   double sweep() override try {
     const cosim::RunEnd end = there_.one_sweep();
-    const auto values = run::counted(there_.outputs(), last_place(driver_.state));
+    const auto values = counted(there_.outputs(), last_place(driver_.state));
     V_ = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
     return end.largest_change * last_place(driver_.state);
   } catch (const cosim::BusFault& fault) {
@@ -87,13 +87,13 @@ class ArrayLevel : public NetworkLevel {
     if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)
       return std::nullopt;
     const double unit = hm_power_of_two(-driver_.shift);
-    return network_.network_of(run::counted(there_.weights(), unit * last_place(driver_.weight)),
-                               run::counted(there_.biases(), unit * last_place(driver_.bias)));
+    return network_.network_of(counted(there_.weights(), unit * last_place(driver_.weight)),
+                               counted(there_.biases(), unit * last_place(driver_.bias)));
   }
 
  private:
   static double last_place(const hm_format& format) { return hm_power_of_two(-hm_fraction_bits(&format)); }
-  static std::vector<double> run::counted(const cosim::Codes& codes, double place) {
+  static std::vector<double> counted(const cosim::Codes& codes, double place) {
     std::vector<double> values(codes.begin(), codes.end());
     for (double& value : values) value *= place;
     return values;

@@ -29,7 +29,7 @@ struct SolveLabel {
   std::string network, level, rule, schedule, verdict;
 };
 /// The summary in a few lines.
-std::string run::text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& solution);
+std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& solution);
 /// V.mtx and summary.json.
 void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
                     const Solution& solution);

@@ -1,7 +1,7 @@
 // A solution as people read it, and as V.mtx and summary.json.
 #include "sim/files/output_file.h"
-#include "sim/run/counted.h"
 #include "sim/networks/solution.h"
+#include "sim/run/counted.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ std::string ending_of(const Solution& s) {
 
 } // namespace
 
-std::string run::text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& s) {
+std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& s) {
   std::string text =
       fmt::format("{}: {}, {}; level {}, {}, {}\n", label.network, run::counted(network.neurons(), "neuron"),
                   run::counted(network.weights(), "weight"), label.level, label.rule, label.schedule);

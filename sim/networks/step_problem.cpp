@@ -18,7 +18,8 @@ Problem problem_of(const reference::Network& network, const Vector& start, const
   return {network.W, network.I, start, levels::order_for(mesh, spec::Schedule::coloured), component};
 }
 
-reference::Increment increment_of(const cli::Prepared& p, const reference::State& state, double time_step) {
+reference::Increment increment_of(const levels::Prepared& p, const reference::State& state,
+                                  double time_step) {
   reference::Motion motion = reference::motion_of(p.inputs.scene);
   if (time_step > 0) motion.time_step = time_step;
   if (p.inputs.scene.force.image) {
@@ -43,8 +44,8 @@ Problem still_problem(const reference::Increment& increment, const Vector& place
 
 } // namespace
 
-Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before, const cli::Prepared& p,
-                     const StepStart& how) {
+Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
+                     const levels::Prepared& p, const StepStart& how) {
   const reference::Step& step = motion.last_step();
   const bool incremental = p.inputs.scene.motion.formulation == scene::Formulation::incremental;
   const reference::State state = levels::state_of(before);

@@ -1,7 +1,8 @@
 // One step's network as the rivals' solvers take it, and where they start.
 #pragma once
 
-#include "sim/cli/options.h"
+#include "sim/levels/prepared.h"
+#include "sim/levels/reference_motion.h"
 #include "sim/networks/solvers/problem.h"
 
 namespace hopmesh::networks {
@@ -15,6 +16,6 @@ struct StepStart {
 /// Over all nodes, pinned ones among them. `motion` has just done the step, `before` is what it began from.
 /// Throws scene::InputError where a scene of the probe is to start still.
 solvers::Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
-                                        const cli::Prepared& prepared, const StepStart& start);
+                              const levels::Prepared& prepared, const StepStart& start);
 
 } // namespace hopmesh::networks

@@ -2,8 +2,8 @@
 // and the animation moves the weight from one target to the next.
 #include "sim/pictures/gltf.h"
 
-#include "sim/pictures/flag_crest.h"
 #include "sim/files/output_file.h"
+#include "sim/pictures/flag_crest.h"
 #include "sim/pictures/surface.h"
 
 #include <algorithm>

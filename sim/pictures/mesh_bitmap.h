@@ -1,8 +1,8 @@
 // Shapes as a bitmap in which the nearest wins: for meshes of more shapes than a page of vectors can hold.
 #pragma once
 
-#include "sim/pictures/mesh_shapes.h"
 #include "sim/files/png.h"
+#include "sim/pictures/mesh_shapes.h"
 
 namespace hopmesh::pictures {
 

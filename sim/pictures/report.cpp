@@ -47,7 +47,8 @@ template <class Fill> void put_array(files::OutputFile& file, std::string_view n
   file.write("\"");
 }
 
-template <class T> void put_array(files::OutputFile& file, std::string_view name, const std::vector<T>& values) {
+template <class T>
+void put_array(files::OutputFile& file, std::string_view name, const std::vector<T>& values) {
   put_array(file, name, [&](files::Base64Writer& out) { out.values(values); });
 }
 

@@ -1,8 +1,8 @@
 // CVODE around the equation of motion.
 #include "sim/rivals/truth.h"
 
-#include "sim/rivals/method.h"
 #include "sim/input/input_error.h"
+#include "sim/rivals/method.h"
 
 #include <cmath>
 #include <cvode/cvode.h>

@@ -18,7 +18,7 @@ namespace {
 
 std::string normaliser_text(const spec::ArraySpec& array) {
   if (array.output == spec::Output::binary) return "none: only the sign of s counts";
-  const std::string name(study::name_of(array.normaliser));
+  const std::string name(name_of(array.normaliser));
   return spec::has_reciprocal(array) ? fmt::format("{}, {} bits", name, array.reciprocal_bits) : name;
 }
 
@@ -32,9 +32,10 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
       {"links between cells", grouped(t.links())},
       {"inputs of a neuron", fmt::format("at most {}", t.most_taps())},
       {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
-      {"output stage", std::string(study::name_of(array.output))},
+      {"output stage", std::string(name_of(array.output))},
       {"normaliser", normaliser_text(array)},
-      {"schedule", fmt::format("{}, {} phases a sweep", study::name_of(array.schedule), grouped(phases.size()))},
+      {"schedule",
+       fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
       {"host bus", fmt::format("{} bits", array.bus_bits)},
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };

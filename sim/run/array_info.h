@@ -2,9 +2,9 @@
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
+#include "sim/levels/built_mesh.h"
 #include "sim/pictures/run_view.h"
 #include "sim/scene/scene.h"
-#include "sim/levels/built_mesh.h"
 
 namespace hopmesh::run {
 

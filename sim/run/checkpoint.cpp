@@ -4,7 +4,7 @@
 #include "sim/files/output_file.h"
 #include "sim/input/whole_file.h"
 #include "sim/run/checked_lines.h"
-#include "study_version.h"
+#include "version.h"
 
 #include <array>
 #include <cstring>
@@ -57,7 +57,8 @@ std::string header_of(const Checkpoint& c) {
     lines.add("stream", fmt::format("{} {} {:016x}", s.name, s.mark.bytes, s.mark.check));
   lines.add("steps", std::to_string(c.state.step));
   for (const auto& [name, values] : levels::parts_of(c.state))
-    lines.add(name, fmt::format("{} {:016x}", values->size(), levels::hash_on(0, values->data(), values->size())));
+    lines.add(name,
+              fmt::format("{} {:016x}", values->size(), levels::hash_on(0, values->data(), values->size())));
   lines.add("binary", "in this order, float64, little endian");
   return lines.text();
 }

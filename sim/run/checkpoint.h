@@ -4,8 +4,8 @@
 
 #include "sim/files/grey_picture.h"
 #include "sim/files/stream_rest.h"
-#include "sim/scene/scene_file.h"
 #include "sim/levels/motion.h"
+#include "sim/scene/scene_file.h"
 
 #include <map>
 #include <optional>
@@ -30,7 +30,7 @@ struct Checkpoint {
   std::uint64_t mesh = 0;             ///< mesh_hash of the mesh as built
   std::optional<std::uint64_t> image; ///< picture_hash of the picture that pulls
   std::string scene, array;           ///< their texts
-  std::vector<levels::SignalRange> ranges;    ///< seen so far; without formats
+  std::vector<levels::SignalRange> ranges; ///< seen so far; without formats
   std::vector<NamedMark> streams;
   levels::StepState state;
 

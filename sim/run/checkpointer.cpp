@@ -19,7 +19,7 @@ void Checkpointer::save(const levels::Motion& motion) {
   const RunFacts& facts = files_.facts();
   Checkpoint c;
   c.program = this_program();
-  c.level = facts.level;
+  c.level = facts.level->name;
   c.command = facts.command;
   c.check = facts.check;
   c.every = every_;

@@ -1,6 +1,5 @@
 #include "sim/run/progress.h"
 
-#include <csignal>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -60,21 +59,6 @@ void CountProgress::count(std::uint64_t done) {
   if (total_ > done && rate > 0)
     fmt::print(stderr, ", {:.0f} s left", static_cast<double>(total_ - done) / rate);
   std::fflush(stderr);
-}
-
-std::atomic<bool> stop_requested{false};
-
-namespace {
-
-void on_signal(int) {
-  if (stop_requested.exchange(true)) _exit(130);
-}
-
-} // namespace
-
-void catch_interrupts() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
 }
 
 } // namespace hopmesh::run

@@ -7,7 +7,7 @@
 
 namespace hopmesh::run {
 
-class Progress : public run::StepSink {
+class Progress : public StepSink {
  public:
   /// `before`: how many of the steps were done by an earlier process.
   explicit Progress(std::uint64_t steps, std::uint64_t before = 0);
@@ -44,9 +44,5 @@ class CountProgress {
   const bool shown_;
   std::chrono::steady_clock::time_point began_, drawn_;
 };
-
-/// Set by Ctrl-C and SIGTERM once catch_interrupts() was called; a second signal ends the program at once.
-extern std::atomic<bool> stop_requested;
-void catch_interrupts();
 
 } // namespace hopmesh::run

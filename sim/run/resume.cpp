@@ -2,6 +2,7 @@
 
 #include "sim/files/npy.h"
 #include "sim/levels/image_force.h"
+#include "sim/levels/level.h"
 #include "sim/run/step_table.h"
 
 #include <fmt/format.h>
@@ -51,21 +52,26 @@ void expect_image(const Checkpoint& c, const scene::Scene& scene) {
                 fmt::format("{:016x}: {} has changed", hash, scene.force.image->file));
 }
 
-void expect_state(const Checkpoint& c, const levels::BuiltMesh& mesh) {
-  const bool fixed = c.level != "reference";
-  const std::size_t outputs = (fixed ? mesh.cells() : mesh.nodes()) * mesh.components();
+// An array's outputs stand cell by cell, the reference's node by node; a rival has neither outputs nor
+// accelerations.
+std::size_t outputs_of(levels::Kind kind, const levels::BuiltMesh& mesh) {
+  if (kind == levels::Kind::rival) return 0;
+  return (kind == levels::Kind::array ? mesh.cells() : mesh.nodes()) * mesh.components();
+}
+
+void expect_state(const Checkpoint& c, const levels::Level& level, const levels::BuiltMesh& mesh) {
   const auto expect = [&](const char* name, const std::vector<double>& values, std::size_t wanted) {
     if (values.size() != wanted)
       throw c.error(name, fmt::format("{} values", values.size()), fmt::format("{}", wanted));
   };
   expect("position", c.state.position, 3 * mesh.nodes());
   expect("velocity", c.state.velocity, 3 * mesh.nodes());
-  expect("acceleration", c.state.acceleration, 3 * mesh.nodes());
-  expect("output", c.state.output, outputs);
+  expect("acceleration", c.state.acceleration, level.kind == levels::Kind::rival ? 0 : 3 * mesh.nodes());
+  expect("output", c.state.output, outputs_of(level.kind, mesh));
 }
 
 files::StreamRest find(const Checkpoint& c, const fs::path& folder, const std::string& name,
-                        const std::string& head) {
+                       const std::string& head) {
   const auto named =
       std::find_if(c.streams.begin(), c.streams.end(), [&](const NamedMark& s) { return s.name == name; });
   if (named == c.streams.end()) throw c.error("stream", "no line for " + name, "one");
@@ -87,14 +93,13 @@ void expect_rows(const Checkpoint& c, const char* name, const files::StreamRest&
                   fmt::format("{} bytes of {} rows", wanted, rows));
 }
 
-RunStreams streams_of(const Checkpoint& c, const fs::path& folder, const levels::BuiltMesh& mesh,
-                      files::FolderLock lock) {
+RunStreams streams_of(const Checkpoint& c, const levels::Level& level, const fs::path& folder,
+                      const levels::BuiltMesh& mesh, files::FolderLock lock) {
   const std::vector<std::size_t> place{mesh.nodes(), 3}, codes{mesh.nodes(), mesh.components()};
-  RunStreams streams{std::move(lock),
-                     find(c, folder, "positions.npy", files::NpyWriter<double>::head(place)),
+  RunStreams streams{std::move(lock), find(c, folder, "positions.npy", files::NpyWriter<double>::head(place)),
                      find(c, folder, "steps.csv", ""), std::nullopt, c.state.step};
   expect_rows<double>(c, "positions.npy", streams.positions, c.state.step + 1, 3 * mesh.nodes());
-  if (c.level == "reference") return streams;
+  if (!level.has_codes()) return streams;
   streams.outputs = find(c, folder, "outputs_raw.npy", files::NpyWriter<std::int32_t>::head(codes));
   expect_rows<std::int32_t>(c, "outputs_raw.npy", *streams.outputs, c.state.step,
                             mesh.nodes() * mesh.components());
@@ -124,8 +129,9 @@ ResumedRun read_run(const fs::path& folder) {
   auto mesh = std::make_unique<levels::BuiltMesh>(inputs.scene);
   expect_mesh(saved, inputs, *mesh);
   expect_image(saved, inputs.scene);
-  expect_state(saved, *mesh);
-  RunStreams streams = streams_of(saved, folder, *mesh, std::move(lock));
+  const levels::Level& level = levels::level_named(saved.level, saved.file);
+  expect_state(saved, level, *mesh);
+  RunStreams streams = streams_of(saved, level, folder, *mesh, std::move(lock));
   auto rows = rows_of(saved, streams);
   return {std::move(saved), std::move(inputs), std::move(mesh), std::move(rows), std::move(streams)};
 }

@@ -12,7 +12,7 @@ struct RunStreams {
   files::FolderLock lock;
   files::StreamRest positions, table;
   std::optional<files::StreamRest> outputs; ///< of levels with codes
-  std::uint64_t steps = 0;                   ///< in each of them
+  std::uint64_t steps = 0;                  ///< in each of them
 };
 
 struct ResumedRun {

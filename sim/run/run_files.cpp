@@ -1,14 +1,14 @@
 #include "sim/run/run_files.h"
 
+#include "sim/levels/image_force.h"
 #include "sim/pictures/gltf.h"
 #include "sim/pictures/mesh_picture.h"
 #include "sim/pictures/overlay.h"
 #include "sim/pictures/report.h"
 #include "sim/run/array_info.h"
-#include "sim/levels/image_force.h"
 #include "sim/run/run_picture.h"
 #include "sim/run/step_table.h"
-#include "study_version.h"
+#include "version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,13 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 // Fails before the first step, not after the last: the folder, and room for what will be written there.
-std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
-                            std::uint64_t done) {
-  const std::uint64_t a_step = mesh.nodes() * (24 + (facts.fixed ? 4 * mesh.components() : 0)) + 300;
+std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts,
+                            const levels::BuiltMesh& mesh, std::uint64_t done) {
+  const std::uint64_t a_step =
+      mesh.nodes() * (24 + (facts.level->has_codes() ? 4 * mesh.components() : 0)) + 300;
   files::check_writable(folder,
-                         a_step * (static_cast<std::uint64_t>(facts.inputs.scene.motion.steps) - done + 1) +
-                             mesh.nodes() * 8192 + (4u << 20));
+                        a_step * (static_cast<std::uint64_t>(facts.inputs.scene.motion.steps) - done + 1) +
+                            mesh.nodes() * 8192 + (4u << 20));
   return folder;
 }
 
@@ -42,7 +43,7 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-const char* study::name_of(Outcome outcome) {
+const char* name_of(Outcome outcome) {
   return outcome == Outcome::finished   ? "finished"
          : outcome == Outcome::diverged ? "diverged"
                                         : "interrupted";
@@ -84,10 +85,10 @@ Totals totals_of(const RunResult& result, const levels::BuiltMesh& mesh) {
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
                    const levels::Motion& motion)
-    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh),
-      mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)), lock_(folder),
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), mesh_hash_(run::mesh_hash(mesh.mesh())),
+      image_(image_of(facts.inputs.scene)), lock_(folder),
       positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
-  if (facts.fixed) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
+  if (facts.level->has_codes()) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
   positions_.append(motion.positions());
 }
 
@@ -128,7 +129,7 @@ void RunFiles::finish(const RunResult& result, const levels::Motion& motion) {
   const std::string what = manifest(result);
   files::write_file(folder_ / "manifest.json", what);
   files::write_file(folder_ / "stats.json",
-                     statistics(result, motion)); // kept if the pictures cannot be written
+                    statistics(result, motion)); // kept if the pictures cannot be written
   auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
   pictures::write_glb(view, folder_ / "mesh.glb");
   pictures::write_mesh_picture(view, folder_ / "picture.svg");
@@ -137,7 +138,7 @@ void RunFiles::finish(const RunResult& result, const levels::Motion& motion) {
   else
     discard("overlay.svg");
   view.tables = run_tables(facts_, mesh_, result, motion.ranges());
-  if (facts_.fixed)
+  if (facts_.level->has_codes())
     for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
       view.tables.push_back(table);
   pictures::write_report(view, folder_ / "report.html");
@@ -170,8 +171,8 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Motion& 
   const Totals t = totals_of(result, mesh_);
   const double s = result.wall_seconds;
   Json json{{"scene", facts_.inputs.scene.name},
-            {"level", facts_.level},
-            {"outcome", study::name_of(result.outcome)},
+            {"level", facts_.level->name},
+            {"outcome", name_of(result.outcome)},
             {"sentence", result.sentence},
             {"nodes", mesh_.nodes()},
             {"neurons", mesh_.topology().neurons()},
@@ -184,7 +185,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Motion& 
             {"neuron_updates_per_second", s > 0 ? static_cast<double>(t.updates) / s : 0},
             {"largest_strain", t.worst_strain},
             {"peak_memory_mb", t.peak_memory_mb}};
-  if (facts_.fixed) {
+  if (facts_.level->has_codes()) {
     json["simulated_cycles"] = t.cycles;
     json["bus_cycles"] = t.bus_cycles;
     json["simulated_cycles_per_second"] = s > 0 ? static_cast<double>(t.cycles) / s : 0;
@@ -207,22 +208,24 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Motion& 
 }
 
 std::string RunFiles::manifest(const RunResult& result) const {
-  Json json{{"program", "hopmesh"},
-            {"version", version},
-            {"commit", commit},
-            {"compiler", compiler},
-            {"build_type", build_type},
-            {"command",
-             facts_.command + (facts_.asked_steps > 0 ? fmt::format(" --steps {}", facts_.asked_steps) : "")},
-            {"level", facts_.level},
-            {"seed", nullptr}, // nothing in a run is drawn at random
-            {"outcome", study::name_of(result.outcome)},
-            {"scene", scene::scene_text(facts_.inputs.scene)},
-            {"array", facts_.fixed ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
-            {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
-            {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
+  Json json{
+      {"program", "hopmesh"},
+      {"version", version},
+      {"commit", commit},
+      {"compiler", compiler},
+      {"build_type", build_type},
+      {"command",
+       facts_.command + (facts_.asked_steps > 0 ? fmt::format(" --steps {}", facts_.asked_steps) : "")},
+      {"level", facts_.level->name},
+      {"seed", nullptr}, // nothing in a run is drawn at random
+      {"outcome", name_of(result.outcome)},
+      {"scene", scene::scene_text(facts_.inputs.scene)},
+      {"array", facts_.level->has_codes() ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
+      {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
+      {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
   json["step_hashes"] = Json::array();
-  for (const levels::StepRow& row : result.rows) json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
+  for (const levels::StepRow& row : result.rows)
+    json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
   return json.dump(2) + "\n";
 }
 

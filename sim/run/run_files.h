@@ -4,6 +4,7 @@
 #include "sim/files/csv.h"
 #include "sim/files/grey_picture.h"
 #include "sim/files/npy.h"
+#include "sim/levels/level.h"
 #include "sim/run/resume.h"
 #include "sim/run/simulation.h"
 
@@ -12,11 +13,10 @@ namespace hopmesh::run {
 /// What a run was, beside its steps: everything that manifest, statistics and report say of it.
 struct RunFacts {
   scene::Inputs inputs;
-  std::string level;
-  bool fixed = false;            ///< a level with raw codes and cycles
-  std::string command;           ///< that repeats the run, but for its --steps
-  std::uint64_t asked_steps = 0; ///< --steps; 0: as many as the scene says
-  bool check = false;            ///< the reference is asked
+  const levels::Level* level = nullptr; ///< never null
+  std::string command;                  ///< that repeats the run, but for its --steps
+  std::uint64_t asked_steps = 0;        ///< --steps; 0: as many as the scene says
+  bool check = false;                   ///< the reference is asked
 };
 
 /// Totals of a run, as printed and as kept in stats.json.

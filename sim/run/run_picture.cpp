@@ -45,11 +45,13 @@ void add_series(const RunFacts& facts, const std::vector<levels::StepRow>& rows,
   for (const levels::StepRow& row : rows) view.step_times.push_back(row.time);
   const bool has_neurons = !rows.empty() && rows.front().sweeps > 0; // rivals have none
   if (has_neurons) add("sweeps a step", "", [](const levels::StepRow& r) { return double(r.sweeps); });
-  if (facts.fixed) add("array cycles a step", "", [](const levels::StepRow& r) { return double(r.cycles); });
+  if (facts.level->has_codes())
+    add("array cycles a step", "", [](const levels::StepRow& r) { return double(r.cycles); });
   add("elastic energy", "J", [](const levels::StepRow& r) { return r.energy; });
   add("kinetic energy", "J", [](const levels::StepRow& r) { return r.kinetic; });
   add("largest strain", "%", [](const levels::StepRow& r) { return 100 * r.max_strain; });
-  if (has_neurons) add("outputs at +1 or -1", "", [](const levels::StepRow& r) { return double(r.saturated); });
+  if (has_neurons)
+    add("outputs at +1 or -1", "", [](const levels::StepRow& r) { return double(r.saturated); });
   if (rows.empty() || !rows.front().error) return;
   add("largest output error against the reference", "",
       [](const levels::StepRow& r) { return r.error->largest_output; });
@@ -61,7 +63,7 @@ FigureTable run_table(const RunFacts& facts, const Totals& t, double seconds) {
   const auto rate = [&](double count) { return seconds > 0 ? count / seconds : 0.0; };
   FigureTable table{"Run", {}};
   auto& rows = table.second;
-  rows.push_back({"level", facts.level});
+  rows.push_back({"level", facts.level->name});
   rows.push_back({"steps", grouped(t.steps)});
   rows.push_back({"wall time", fmt::format("{:.2f} s", seconds)});
   rows.push_back({"steps/s", fmt::format("{:.1f}", rate(static_cast<double>(t.steps)))});
@@ -70,7 +72,7 @@ FigureTable run_table(const RunFacts& facts, const Totals& t, double seconds) {
     rows.push_back({"steps stopped by max_sweeps", grouped(t.unconverged)});
     rows.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(static_cast<double>(t.updates)))});
   }
-  if (facts.fixed) {
+  if (facts.level->has_codes()) {
     const double hardware = static_cast<double>(t.cycles + t.bus_cycles) / facts.inputs.array.clock_mhz / 1e6;
     rows.push_back(
         {"simulated cycles", grouped(t.cycles) + " in the array, " + grouped(t.bus_cycles) + " on the bus"});
@@ -116,8 +118,8 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   return shown;
 }
 
-std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
-                                    const std::vector<levels::SignalRange>& ranges) {
+std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh,
+                                    const RunResult& result, const std::vector<levels::SignalRange>& ranges) {
   const Totals t = totals_of(result, mesh);
   std::vector<FigureTable> tables{run_table(facts, t, result.wall_seconds)};
   if (!result.rows.empty() && result.rows.front().error) tables.push_back(accuracy_table(t));
@@ -126,13 +128,13 @@ std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMe
 }
 
 pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
-                            const std::filesystem::path& positions, std::string manifest) {
+                              const std::filesystem::path& positions, std::string manifest) {
   const scene::Scene& scene = facts.inputs.scene;
   pictures::RunView view;
   view.title = scene.name;
-  view.subtitle =
-      fmt::format("{} level, {} of {} steps of {} s{}", facts.level, result.rows.size(), scene.motion.steps,
-                  scene.motion.time_step, facts.fixed ? ", array " + facts.inputs.array.name : "");
+  view.subtitle = fmt::format("{} level, {} of {} steps of {} s{}", facts.level->name, result.rows.size(),
+                              scene.motion.steps, scene.motion.time_step,
+                              facts.level->has_codes() ? ", array " + facts.inputs.array.name : "");
   view.outcome = result.sentence;
   view.good = result.outcome != Outcome::diverged;
   view.crest = scene.mesh.grid.has_value();

@@ -14,7 +14,7 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes);
 
 /// Frames are read back from positions.npy.
 pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
-                            const std::filesystem::path& positions, std::string manifest);
+                              const std::filesystem::path& positions, std::string manifest);
 
 /// "The run", "Accuracy" and "Codes seen": the figures that the end of a run prints.
 std::vector<std::pair<std::string, std::vector<pictures::Figure>>>

@@ -19,7 +19,8 @@ std::string kept(std::uint64_t before) {
 }
 
 // One step; true while the run goes on.
-bool one_step(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks, RunResult& result) {
+bool one_step(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+              RunResult& result) {
   const std::uint64_t step = result.rows.size();
   try {
     result.rows.push_back(motion.advance());

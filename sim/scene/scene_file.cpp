@@ -2,8 +2,8 @@
 #include "sim/scene/scene_file.h"
 
 #include "sim/input/array_file.h"
-#include "sim/scene/scene_reader.h"
 #include "sim/input/shipped.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hopmesh::scene {
 
@@ -36,7 +36,8 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
 namespace {
 
 input::TomlSource placed(const PlacedText& text, const std::string& file) {
-  return input::TomlSource::of_text(std::string(static_cast<std::size_t>(text.line - 1), '\n') + text.text, file);
+  return input::TomlSource::of_text(std::string(static_cast<std::size_t>(text.line - 1), '\n') + text.text,
+                                    file);
 }
 
 } // namespace

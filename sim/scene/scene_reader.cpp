@@ -48,7 +48,8 @@ class SceneReader {
   }
 
   Scene read() {
-    if (source_.values().empty()) throw input::input_error(scene_.source, 0, "", "no key at all", "a scene file");
+    if (source_.values().empty())
+      throw input::input_error(scene_.source, 0, "", "no key at all", "a scene file");
     keys_.text("name", scene_.name, "a name in quotes");
     read_shape();
     read_springs();
@@ -77,28 +78,28 @@ class SceneReader {
     Grid grid;
     keys_.integer("mesh.grid.rows", grid.rows, 1, int(most_nodes));
     keys_.integer("mesh.grid.columns", grid.columns, 1, int(most_nodes));
-    keys_.real("mesh.grid.pitch", grid.pitch, above_zero);
+    keys_.real("mesh.grid.pitch", grid.pitch, input::above_zero);
     const input::TomlValue* table = source_.find("mesh.grid");
     if (table && table->as<input::TomlTable>()) mesh.grid = grid;
     std::string file;
     if (keys_.text("mesh.file", file, "the path of an OBJ file"))
       mesh.file = resolved(file, scene_.source, scene_.lines["mesh.file"] == 0);
-    keys_.real("mesh.scale", mesh.scale, above_zero);
-    keys_.real("mesh.pin_band", mesh.pin_band, zero_to_one);
+    keys_.real("mesh.scale", mesh.scale, input::above_zero);
+    keys_.real("mesh.pin_band", mesh.pin_band, input::zero_to_one);
     keys_.choice("mesh.up", mesh.up, {"x", "y", "z"});
   }
 
   void read_springs() {
     MeshSpec& mesh = scene_.mesh;
     if (mesh.file) mesh.shear = mesh.bend = 0; // the edges of a file are all alike
-    keys_.real("mesh.springs.structural", mesh.structural, from_zero);
-    keys_.real("mesh.springs.shear", mesh.shear, from_zero);
-    keys_.real("mesh.springs.bend", mesh.bend, from_zero);
+    keys_.real("mesh.springs.structural", mesh.structural, input::from_zero);
+    keys_.real("mesh.springs.shear", mesh.shear, input::from_zero);
+    keys_.real("mesh.springs.bend", mesh.bend, input::from_zero);
     std::string law = "linear";
     keys_.choice("mesh.springs.law", law, {"linear", "tension"});
     mesh.law = law == "tension" ? SpringLaw::tension : SpringLaw::linear;
     double floor = 0;
-    if (keys_.real("mesh.springs.floor", floor, above_zero)) mesh.floor = floor;
+    if (keys_.real("mesh.springs.floor", floor, input::above_zero)) mesh.floor = floor;
   }
 
   void read_pins() {
@@ -115,18 +116,18 @@ class SceneReader {
   void read_pin_ball() {
     PinBall ball;
     keys_.vector("mesh.pin_ball.centre", ball.centre);
-    const bool sized = keys_.real("mesh.pin_ball.radius", ball.radius, above_zero);
+    const bool sized = keys_.real("mesh.pin_ball.radius", ball.radius, input::above_zero);
     const input::TomlValue* table = source_.find("mesh.pin_ball");
     if (!table || !table->as<input::TomlTable>()) return;
     if (!sized)
       throw input::input_error(source_.file_of(table->line), table->line, "mesh.pin_ball", "no radius",
-                        "{ centre = [x, y, z], radius = a length above 0 }");
+                               "{ centre = [x, y, z], radius = a length above 0 }");
     scene_.mesh.pin_ball = ball;
   }
 
   void read_node() {
     MeshSpec& mesh = scene_.mesh;
-    keys_.real("mesh.mass", mesh.mass, above_zero);
+    keys_.real("mesh.mass", mesh.mass, input::above_zero);
     keys_.flag("mesh.planar", mesh.planar);
     const input::TomlValue* rest = keys_.value("mesh.rest");
     if (!rest) return;
@@ -139,7 +140,7 @@ class SceneReader {
 
   void read_start() {
     Start& start = scene_.mesh.start;
-    keys_.real("mesh.start.shuffle", start.shuffle, from_zero);
+    keys_.real("mesh.start.shuffle", start.shuffle, input::from_zero);
     keys_.integer("mesh.start.seed", start.seed, 0, std::numeric_limits<std::int64_t>::max());
     keys_.vector("mesh.start.velocity", start.velocity);
   }
@@ -149,16 +150,16 @@ class SceneReader {
     std::string formulation = "probe";
     keys_.choice("motion.formulation", formulation, {"probe", "incremental"});
     motion.formulation = formulation == "probe" ? Formulation::probe : Formulation::incremental;
-    keys_.real("motion.time_step", motion.time_step, above_zero);
+    keys_.real("motion.time_step", motion.time_step, input::above_zero);
     keys_.integer("motion.steps", motion.steps, 1, most_count);
-    keys_.real("motion.friction", motion.friction, zero_to_one);
+    keys_.real("motion.friction", motion.friction, input::zero_to_one);
   }
 
   void read_probe() {
     ProbeSpec& probe = scene_.probe;
-    keys_.real("probe.gamma", probe.gamma, from_zero);
-    keys_.real("probe.beta", probe.beta, from_zero);
-    keys_.real("probe.acceleration_memory", probe.acceleration_memory, zero_to_one);
+    keys_.real("probe.gamma", probe.gamma, input::from_zero);
+    keys_.real("probe.beta", probe.beta, input::from_zero);
+    keys_.real("probe.acceleration_memory", probe.acceleration_memory, input::zero_to_one);
     keys_.choice("probe.energy_springs", probe.energy_springs, {"own", "all"});
     keys_.choice("probe.force_on", probe.force_on, {"velocity", "acceleration"});
   }
@@ -168,7 +169,7 @@ class SceneReader {
   }
 
   void read_relax() {
-    keys_.real("relax.threshold", scene_.relax.threshold, from_zero);
+    keys_.real("relax.threshold", scene_.relax.threshold, input::from_zero);
     keys_.integer("relax.max_sweeps", scene_.relax.max_sweeps, 1, most_count);
     keys_.integer("relax.expansions", scene_.relax.expansions, 1, 1000);
   }
@@ -177,20 +178,20 @@ class SceneReader {
     keys_.vector("force.gravity", scene_.force.gravity);
     Vector3 wind{};
     if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
-    keys_.real("force.drag", scene_.force.drag, from_zero);
+    keys_.real("force.drag", scene_.force.drag, input::from_zero);
     read_image();
   }
 
   void read_image() {
     ImageSpec image;
     const bool named = keys_.text("force.image.file", image.file, "the path of a PGM or PNG picture");
-    keys_.real("force.image.pitch", image.pitch, above_zero);
-    keys_.real("force.image.strength", image.strength, from_zero);
+    keys_.real("force.image.pitch", image.pitch, input::above_zero);
+    keys_.real("force.image.strength", image.strength, input::from_zero);
     keys_.real("force.image.smoothing", image.smoothing, {0.5, 50, "a number of pixels from 0.5 to 50"});
     const input::TomlValue* table = source_.find("force.image");
     if (!named && table && table->as<input::TomlTable>())
       throw input::input_error(source_.file_of(table->line), table->line, "force.image", "no file",
-                        "file = a PGM or PNG picture");
+                               "file = a PGM or PNG picture");
     if (!named) return;
     if (scene_.motion.formulation == Formulation::probe)
       throw error("force.image.file", "formulation = \"incremental\" where an image pulls");
@@ -220,7 +221,7 @@ class SceneReader {
     if (mesh.grid && mesh.file) throw error("mesh.file", "either mesh.grid or mesh.file, not both");
     if (!mesh.grid && !mesh.file)
       throw input::input_error(scene_.source, 0, "mesh", "no shape",
-                        "mesh.grid = { rows, columns, pitch } or mesh.file");
+                               "mesh.grid = { rows, columns, pitch } or mesh.file");
     if (mesh.grid)
       check_grid(*mesh.grid);
     else
@@ -264,11 +265,11 @@ Scene read_scene(const input::TomlSource& source, const std::string& path) {
 }
 
 input::InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,
-                       const std::string& expected, const std::string& nearest) {
+                              const std::string& expected, const std::string& nearest) {
   const auto place = scene.lines.find(key);
   if (place == scene.lines.end()) return input::input_error(scene.source, 0, key, found, expected, nearest);
   return input::input_error(place->second == 0 ? "--set" : scene.source, place->second, key, found, expected,
-                     nearest);
+                            nearest);
 }
 
 } // namespace hopmesh::scene

@@ -1,8 +1,8 @@
 // Located keys -> a scene, checked as far as that goes without building the mesh.
 #pragma once
 
-#include "sim/scene/scene.h"
 #include "sim/input/toml_source.h"
+#include "sim/scene/scene.h"
 
 namespace hopmesh::scene {
 
@@ -15,6 +15,6 @@ Scene read_scene(const input::TomlSource& source, const std::string& path);
 
 /// A mistake that only shows when the mesh is built, placed at the key that caused it.
 input::InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,
-                       const std::string& expected, const std::string& nearest = "");
+                              const std::string& expected, const std::string& nearest = "");
 
 } // namespace hopmesh::scene

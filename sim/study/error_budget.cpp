@@ -5,7 +5,8 @@ namespace hopmesh::study {
 namespace {
 
 // Of the vectors a - b and c - d.
-double product(const run::Positions& a, const run::Positions& b, const run::Positions& c, const run::Positions& d) {
+double product(const run::Positions& a, const run::Positions& b, const run::Positions& c,
+               const run::Positions& d) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (c[k] - d[k]);
   return sum;

@@ -1,9 +1,9 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/scene/frequency.h"
-#include "sim/run/array_info.h"
 #include "sim/levels/reference_motion.h"
+#include "sim/run/array_info.h"
+#include "sim/scene/frequency.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,12 @@ namespace hopmesh::study {
 
 namespace {
 
-std::vector<Maybe> distances(const std::vector<run::Positions>& ours, const std::vector<run::Positions>& theirs) {
+std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
+                             const std::vector<run::Positions>& theirs) {
   std::vector<Maybe> all(ours.size());
   for (std::size_t k = 0; k < ours.size() && k < theirs.size(); ++k)
-    if (!ours[k].empty() && ours[k].size() == theirs[k].size()) all[k] = run::rms_distance(ours[k], theirs[k]);
+    if (!ours[k].empty() && ours[k].size() == theirs[k].size())
+      all[k] = run::rms_distance(ours[k], theirs[k]);
   return all;
 }
 
@@ -27,7 +29,8 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
   return count;
 }
 
-void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh, PointRow& row) {
+void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+            PointRow& row) {
   double squares = 0;
   std::vector<double> errors;
   for (const levels::StepRow& step : result.rows) {
@@ -48,9 +51,9 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
   if (row.cycles > 0) row.memory_bits = run::memory_bits(mesh, inputs.array).total();
 }
 
-void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mesh, const std::vector<double>& times,
-                       const run::Snapshots& ours, const run::Positions& last, const std::atomic<bool>& stop,
-                       PointRow& row) {
+void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                       const std::vector<double>& times, const run::Snapshots& ours,
+                       const run::Positions& last, const std::atomic<bool>& stop, PointRow& row) {
   levels::ReferenceMotion motion(inputs.scene, mesh, inputs.array);
   run::Snapshots theirs(times, inputs.scene.motion.time_step);
   const run::RunResult result = run::simulate(motion, row.steps, {&theirs}, stop);
@@ -58,7 +61,8 @@ void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mes
   row.reference_at = distances(ours.at, theirs.at);
 }
 
-StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh, const run::RunResult& result) {
+StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                        const run::RunResult& result) {
   StabilityFacts facts;
   facts.diverged = result.outcome == run::Outcome::diverged;
   facts.outputs = mesh.topology().neurons();
@@ -79,7 +83,7 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
   PointRow row;
   row.status = result.outcome == run::Outcome::diverged   ? "diverged"
                : result.outcome == run::Outcome::finished ? "finished"
-                                                     : "interrupted";
+                                                          : "interrupted";
   row.sentence = result.sentence;
   row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);

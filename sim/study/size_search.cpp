@@ -7,18 +7,15 @@ namespace hopmesh::study {
 
 namespace {
 
-using study::LeastSetting;
-using study::Setting;
-using study::TrialRow;
 
 class Search {
  public:
-  Search(const study::Sizing& sizing, const SizeGoal& goal, SizeTrials& trials)
+  Search(const Sizing& sizing, const SizeGoal& goal, SizeTrials& trials)
       : sizing_(sizing), goal_(goal), trials_(trials), most_sweeps_(goal.most_sweeps) {}
 
   SizeFound found() {
     found_.setting = sizing_.widest();
-    found_.reached = lower(study::k_weight, study::k_threshold) && lower(study::k_threshold, study::k_lanes);
+    found_.reached = lower(k_weight, k_threshold) && lower(k_threshold, k_lanes);
     if (!found_.reached) {
       found_.why =
           fmt::format("no array meets {} m: the nearest of {} tried, up to the widest there is, ends "
@@ -27,7 +24,7 @@ class Search {
       return found_;
     }
     found_.reached = choose_lanes();
-    if (found_.reached) cli::add_size();
+    if (found_.reached) add_size();
     return found_;
   }
 
@@ -56,7 +53,7 @@ class Search {
 
   // The least levels of the knobs first .. end - 1, all others as they are.
   bool lower(std::size_t first, std::size_t end) {
-    const bool formats = first == study::k_weight;
+    const bool formats = first == k_weight;
     LeastSetting search(
         end - first,
         [=](const Setting& from, std::size_t knob, int by) -> std::optional<Setting> {
@@ -77,17 +74,16 @@ class Search {
   // Sweeps that no step ever made are free to go; a relaxation that takes more of them in all is no smaller.
   Setting begin_of(std::size_t first, std::size_t end) {
     Setting start = found_.setting;
-    if (first == study::k_threshold) most_sweeps_ = trials_.row(start).sweeps;
-    if (first == study::k_threshold)
-      start[study::k_sweeps] =
-          std::clamp(static_cast<int>(trials_.row(start).most_sweeps), 1, start[study::k_sweeps]);
+    if (first == k_threshold) most_sweeps_ = trials_.row(start).sweeps;
+    if (first == k_threshold)
+      start[k_sweeps] = std::clamp(static_cast<int>(trials_.row(start).most_sweeps), 1, start[k_sweeps]);
     return part(start, first, end);
   }
 
-  std::vector<study::Trial> asked(const std::vector<Setting>& parts, std::size_t first, bool formats) {
+  std::vector<Trial> asked(const std::vector<Setting>& parts, std::size_t first, bool formats) {
     std::vector<Setting> settings;
     for (const Setting& p : parts) settings.push_back(whole(p, first));
-    std::vector<study::Trial> answers;
+    std::vector<Trial> answers;
     const std::vector<TrialRow> rows = trials_.rows(settings);
     for (std::size_t k = 0; k < rows.size(); ++k)
       answers.push_back({fails_by(rows[k]).empty(), rows[k].error, cost_of(settings[k], rows[k], formats)});
@@ -111,7 +107,7 @@ class Search {
 
   void add_less(const Setting& at, std::size_t knob, int by) {
     if (const auto less = sizing_.lowered(at, knob, by))
-      add(by == 1 ? "one less" : "two less", study::knob_names[knob], *less);
+      add(by == 1 ? "one less" : "two less", knob_names[knob], *less);
   }
 
   double seconds(const TrialRow& row) const {
@@ -127,7 +123,7 @@ class Search {
       if (cycles == before) continue;
       before = cycles;
       settings.push_back(found_.setting);
-      settings.back()[study::k_lanes] = static_cast<int>(lanes);
+      settings.back()[k_lanes] = static_cast<int>(lanes);
     }
     return settings;
   }
@@ -144,21 +140,20 @@ class Search {
       const bool fits = goal_.time_per_step == 0 || seconds(rows[k]) <= goal_.time_per_step;
       const bool better = !best || (goal_.time_per_step == 0 && product(k) < product(*best));
       if (fits && better) best = k;
-      found_.evidence.push_back(
-          {"lanes", study::knob_names[study::k_lanes], settings[k], rows[k], fits ? "" : "time"});
+      found_.evidence.push_back({"lanes", knob_names[k_lanes], settings[k], rows[k], fits ? "" : "time"});
     }
     if (best) found_.setting = settings[*best];
     if (!best)
       found_.why =
           fmt::format("no number of lanes does a step in {} s: {} of them take {:.3g} s for the slowest",
-                      goal_.time_per_step, settings.back()[study::k_lanes], seconds(rows.back()));
+                      goal_.time_per_step, settings.back()[k_lanes], seconds(rows.back()));
     return best.has_value();
   }
 
-  void cli::add_size() {
+  void add_size() {
     const Setting scenes = sizing_.widest();
     found_.file = found_.setting;
-    for (std::size_t knob : {study::k_threshold, study::k_sweeps}) found_.file[knob] = scenes[knob];
+    for (std::size_t knob : {k_threshold, k_sweeps}) found_.file[knob] = scenes[knob];
     std::vector<SizeEvidence> rest = std::move(found_.evidence);
     found_.evidence.clear();
     add("size", "", found_.setting);
@@ -166,7 +161,7 @@ class Search {
     found_.evidence.insert(found_.evidence.end(), rest.begin(), rest.end());
   }
 
-  const study::Sizing& sizing_;
+  const Sizing& sizing_;
   const SizeGoal& goal_;
   SizeTrials& trials_;
   std::uint64_t most_sweeps_;
@@ -175,7 +170,7 @@ class Search {
 
 } // namespace
 
-SizeFound find_size(const study::Sizing& sizing, const SizeGoal& goal, SizeTrials& trials) {
+SizeFound find_size(const Sizing& sizing, const SizeGoal& goal, SizeTrials& trials) {
   return Search(sizing, goal, trials).found();
 }
 

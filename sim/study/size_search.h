@@ -17,8 +17,8 @@ struct SizeGoal {
 /// One line of the evidence: what was tried beside the size, and what came of it.
 struct SizeEvidence {
   std::string what, knob; ///< "size", "array file", "one less", "two less", "lanes"
-  study::Setting setting;
-  study::TrialRow row;
+  Setting setting;
+  TrialRow row;
   std::string fails_by; ///< "", or what it fails by: "error", "sweeps", "time", or how the motion ended
 };
 
@@ -26,12 +26,12 @@ struct SizeFound {
   bool reached = false;
   double least_error = 0; ///< of all that was tried
   std::string why;        ///< in a sentence, where nothing reaches the goal
-  study::Setting setting; ///< with the sweeps found
-  study::Setting file;    ///< the same array with the scene's own relaxation
+  Setting setting;        ///< with the sweeps found
+  Setting file;           ///< the same array with the scene's own relaxation
   std::vector<SizeEvidence> evidence;
   std::uint64_t tried = 0, met = 0, cheaper = 0; ///< formats tried, met the error, and at less silicon
 };
 
-SizeFound find_size(const study::Sizing& sizing, const SizeGoal& goal, SizeTrials& trials);
+SizeFound find_size(const Sizing& sizing, const SizeGoal& goal, SizeTrials& trials);
 
 } // namespace hopmesh::study

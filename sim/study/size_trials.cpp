@@ -1,13 +1,15 @@
 #include "sim/study/size_trials.h"
 
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
 #include "sim/study/point_pool.h"
 
 namespace hopmesh::study {
 
 namespace {
 
-study::TrialRow row_of(const run::RunResult& result, double error) {
-  study::TrialRow row;
+TrialRow row_of(const run::RunResult& result, double error) {
+  TrialRow row;
   const bool finished = result.outcome == run::Outcome::finished;
   row.status = finished ? "finished" : "diverged";
   if (finished) row.error = error;
@@ -22,32 +24,32 @@ study::TrialRow row_of(const run::RunResult& result, double error) {
 } // namespace
 
 // In a child.
-int SizeTrials::fly(const study::Setting& setting) const {
-  cli::Prepared p{sizing_.inputs_of(setting), nullptr};
+int SizeTrials::fly(const Setting& setting) const {
+  levels::Prepared p{sizing_.inputs_of(setting), nullptr};
   p.mesh = std::make_unique<levels::BuiltMesh>(p.inputs.scene);
-  const cli::Level level = cli::make_level("engine", p, false, {{}, {}, true});
+  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
   const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
-  const run::RunResult result = run::simulate(*level.motion, steps, {}, stop_requested);
-  if (stop_requested) return interrupted;
+  const run::RunResult result = run::simulate(*level.motion, steps, {}, levels::stop_requested);
+  if (levels::stop_requested) return child_stopped;
   folder_.keep(setting, row_of(result, run::rms_distance(level.motion->positions(), target_)));
-  return done;
+  return child_done;
 }
 
-std::vector<study::TrialRow> SizeTrials::rows(const std::vector<study::Setting>& settings) {
+std::vector<TrialRow> SizeTrials::rows(const std::vector<Setting>& settings) {
   std::vector<std::size_t> missing;
   for (std::size_t k = 0; k < settings.size(); ++k)
     if (!folder_.find(settings[k])) missing.push_back(k);
-  const bool whole = study::run_in_children(
+  const bool whole = run_in_children(
       missing, workers_, [&](std::size_t k) { return fly(settings[k]); },
-      [&](std::size_t k, const study::ChildEnd& end) {
-        const bool asked = stop_requested || end.exit_code == interrupted;
+      [&](std::size_t k, const ChildEnd& end) {
+        const bool asked = levels::stop_requested || end.exit_code == child_stopped;
         if (!asked && !folder_.find(settings[k])) folder_.keep(settings[k], {});
         progress_.count(++flown_);
       },
-      stop_requested);
-  if (!whole || stop_requested) throw SearchStopped();
-  std::vector<study::TrialRow> rows;
-  for (const study::Setting& setting : settings) rows.push_back(folder_.find(setting).value());
+      levels::stop_requested);
+  if (!whole || levels::stop_requested) throw SearchStopped();
+  std::vector<TrialRow> rows;
+  for (const Setting& setting : settings) rows.push_back(folder_.find(setting).value());
   return rows;
 }
 

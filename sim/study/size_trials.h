@@ -2,7 +2,6 @@
 // all.
 #pragma once
 
-#include "sim/cli/options.h"
 #include "sim/run/progress.h"
 #include "sim/run/snapshots.h"
 #include "sim/study/trial_folder.h"
@@ -15,20 +14,20 @@ class SearchStopped : public std::exception {};
 class SizeTrials {
  public:
   /// `target`: where the motion should end. Everything must outlive the trials.
-  SizeTrials(const study::Sizing& sizing, const study::TrialFolder& folder, const run::Positions& target,
+  SizeTrials(const Sizing& sizing, const TrialFolder& folder, const run::Positions& target,
              std::size_t workers)
       : sizing_(sizing), folder_(folder), target_(target), workers_(workers), progress_("trials", 0) {}
 
   /// One row a setting, in their order. Throws SearchStopped.
-  std::vector<study::TrialRow> rows(const std::vector<study::Setting>& settings);
-  study::TrialRow row(const study::Setting& setting) { return rows({setting})[0]; }
+  std::vector<TrialRow> rows(const std::vector<Setting>& settings);
+  TrialRow row(const Setting& setting) { return rows({setting})[0]; }
   std::uint64_t flown() const { return flown_; } ///< by this process, not found in the folder
 
  private:
-  int fly(const study::Setting& setting) const;
+  int fly(const Setting& setting) const;
 
-  const study::Sizing& sizing_;
-  const study::TrialFolder& folder_;
+  const Sizing& sizing_;
+  const TrialFolder& folder_;
   const run::Positions& target_;
   const std::size_t workers_;
   run::CountProgress progress_;

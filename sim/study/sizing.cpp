@@ -133,7 +133,7 @@ std::vector<std::string> Sizing::overrides(const Setting& setting) const {
     if (knob == k_reciprocal && inputs_.array.normaliser != spec::Normaliser::reciprocal) continue;
     const bool relaxation = knob == k_threshold || knob == k_sweeps;
     if (relaxation && setting[knob] == scenes[knob]) continue;
-    words.push_back(fmt::format("{}={}", knob_names[knob], run::text_of(setting, knob)));
+    words.push_back(fmt::format("{}={}", knob_names[knob], text_of(setting, knob)));
   }
   return words;
 }

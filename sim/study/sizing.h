@@ -2,9 +2,9 @@
 // reciprocal, then threshold and sweeps of the relaxation, then lanes.
 #pragma once
 
-#include "sim/scene/scene_file.h"
 #include "sim/levels/array_port.h"
 #include "sim/levels/built_mesh.h"
+#include "sim/scene/scene_file.h"
 #include "sim/study/least_setting.h"
 
 namespace hopmesh::study {
@@ -44,7 +44,7 @@ class Sizing {
   /// Memory and multipliers.
   double silicon_bits(const Setting& setting) const;
   /// The level as it stands in files: bits of the whole word, a threshold, a count.
-  std::string run::text_of(const Setting& setting, std::size_t knob) const;
+  std::string text_of(const Setting& setting, std::size_t knob) const;
   /// --set words that make the setting of the scene with the array it was given.
   std::vector<std::string> overrides(const Setting& setting) const;
 

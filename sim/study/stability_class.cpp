@@ -43,8 +43,10 @@ bool stalls(const Rows& rows) {
 bool is_over_damped(const Rows& rows, double friction) {
   if (rows.size() < least_rows) return false;
   const auto kinetic = [](const levels::StepRow& r) { return r.kinetic; };
-  const auto peak = std::max_element(
-      rows.begin(), rows.end(), [](const levels::StepRow& a, const levels::StepRow& b) { return a.kinetic < b.kinetic; });
+  const auto peak =
+      std::max_element(rows.begin(), rows.end(), [](const levels::StepRow& a, const levels::StepRow& b) {
+        return a.kinetic < b.kinetic;
+      });
   const double left = std::pow(friction, 2.0 * static_cast<double>(rows.end() - peak));
   return peak->kinetic > 0 && quarter(rows, 3, kinetic) < damped_share * left * peak->kinetic;
 }

@@ -64,7 +64,8 @@ class StudyReader {
   Study read() {
     keys_.text("name", study_.name, "a name in quotes");
     if (!keys_.text("scene", study_.scene, "a scene file or the name of a shipped scene"))
-      throw input::input_error(study_.path, 0, "scene", "nothing", "a scene file or the name of a shipped scene");
+      throw input::input_error(study_.path, 0, "scene", "nothing",
+                               "a scene file or the name of a shipped scene");
     keys_.text("array", study_.array, "an array file or the name of a preset");
     study_.scene = beside(study_.scene);
     study_.array = beside(study_.array);
@@ -76,7 +77,7 @@ class StudyReader {
     keys_.refuse_unknown();
     if (study_.combinations() > most_points)
       throw input::input_error(study_.path, 0, "axes", fmt::format("{} points", study_.combinations()),
-                        fmt::format("at most {}", most_points));
+                               fmt::format("at most {}", most_points));
     return study_;
   }
 
@@ -112,7 +113,7 @@ class StudyReader {
     if (!found) return;
     study_.times_line = found->line;
     for (const input::TomlValue& item : list_at(*found, "times")) {
-      const double time = keys_.number(item, "times", above_zero);
+      const double time = keys_.number(item, "times", input::above_zero);
       if (!study_.times.empty() && time <= study_.times.back())
         throw source_.error(item, "times", "each time after the one before");
       study_.times.push_back(time);
@@ -144,7 +145,7 @@ class StudyReader {
     for (const StudyAxis& axis : study_.axes)
       if (const AxisPlace& place = axis.places.front(); place.method_line > 0 && axes++ > 0)
         throw input::input_error(study_.path, place.method_line, "axes." + axis.name + ".method",
-                          "methods named twice", "either methods, or the method of one axis");
+                                 "methods named twice", "either methods, or the method of one axis");
   }
 
   bool in_combined(const std::string& path) const {
@@ -168,13 +169,15 @@ class StudyReader {
       axis.places.push_back({label_of(item), {}, {}, 0});
     const std::string below = table + '.';
     for (const auto& [path, value] : source_.values())
-      if (path.compare(0, below.size(), below) == 0 && path != table + ".label" && !value.as<input::TomlTable>())
+      if (path.compare(0, below.size(), below) == 0 && path != table + ".label" &&
+          !value.as<input::TomlTable>())
         set_along(axis, value, path, without_quotes(path.substr(below.size())));
     study_.axes.push_back(std::move(axis));
   }
 
   /// A list: one value a place. Anything else: the same everywhere, with {} in a text for the label.
-  void set_along(StudyAxis& axis, const input::TomlValue& value, const std::string& path, const std::string& key) {
+  void set_along(StudyAxis& axis, const input::TomlValue& value, const std::string& path,
+                 const std::string& key) {
     const auto* items = value.as<Items>();
     if (items && items->size() != axis.places.size())
       throw source_.error(value, path, fmt::format("a list of {}, one a label", axis.places.size()));

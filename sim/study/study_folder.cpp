@@ -34,9 +34,9 @@ void write(files::CsvWriter& table, const Point& point, const PointRow& row) {
 
 } // namespace
 
-std::vector<std::string> result_columns(const study::Study& study) {
+std::vector<std::string> result_columns(const Study& study) {
   std::vector<std::string> columns{"point"};
-  for (const study::StudyAxis& axis : study.axes) columns.push_back(axis.name);
+  for (const StudyAxis& axis : study.axes) columns.push_back(axis.name);
   for (const char* name :
        {"method", "status", "class", "output_error", "output_error_median", "position_error"})
     columns.emplace_back(name);
@@ -48,7 +48,7 @@ std::vector<std::string> result_columns(const study::Study& study) {
   return columns;
 }
 
-StudyFolder::StudyFolder(const study::Study& study, fs::path folder, std::uint64_t hash, bool alone)
+StudyFolder::StudyFolder(const Study& study, fs::path folder, std::uint64_t hash, bool alone)
     : study_(study), folder_(std::move(folder)) {
   files::check_writable(folder_, 0);
   if (alone) lock_.emplace(folder_);

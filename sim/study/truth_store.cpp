@@ -3,10 +3,10 @@
 #include "sim/files/csv.h"
 #include "sim/files/csv_table.h"
 #include "sim/files/npy.h"
+#include "sim/levels/step_state.h"
 #include "sim/rivals/method.h"
 #include "sim/rivals/truth.h"
 #include "sim/run/checkpoint.h"
-#include "sim/levels/step_state.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -27,10 +27,10 @@ std::uint64_t hash_of(const rivals::Surroundings& around, const levels::BuiltMes
   return levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
 }
 
-study::Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
-                   const std::vector<double>& times) {
+Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
+            const std::vector<double>& times) {
   const rivals::Truth found = rivals::solve(rivals::Physics(mesh.mesh(), around), times, tolerance);
-  study::Truth truth;
+  Truth truth;
   truth.floor = found.floor;
   for (const rivals::Vector& at : found.positions)
     truth.positions.emplace_back(at.data(), at.data() + at.size());
@@ -39,7 +39,7 @@ study::Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& 
 
 // Two points may work out the same one at the same time: each writes files of its own, the last name wins.
 // Positions come last: where they are, the floor is.
-void keep(const fs::path& stem, const study::Truth& truth, std::size_t nodes) {
+void keep(const fs::path& stem, const Truth& truth, std::size_t nodes) {
   const std::string own = stem.string() + fmt::format(".{}", getpid());
   files::CsvWriter floor(own + ".csv", {"floor"});
   for (double f : truth.floor) floor.cell(f).end_row();
@@ -50,8 +50,8 @@ void keep(const fs::path& stem, const study::Truth& truth, std::size_t nodes) {
   for (const char* ending : {".csv", ".npy"}) fs::rename(own + ending, stem.string() + ending);
 }
 
-study::Truth kept(const fs::path& stem) {
-  study::Truth truth;
+Truth kept(const fs::path& stem) {
+  Truth truth;
   const files::CsvTable floor = files::read_csv(stem.string() + ".csv");
   for (std::size_t k = 0; k < floor.rows.size(); ++k)
     truth.floor.push_back(floor.number(k, "floor").value_or(0));
@@ -62,13 +62,13 @@ study::Truth kept(const fs::path& stem) {
 
 } // namespace
 
-study::Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                            const std::vector<double>& times) const {
+Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                     const std::vector<double>& times) const {
   const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);
   const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash_of(around, mesh, times));
   if (fs::exists(stem.string() + ".npy")) return kept(stem);
   try {
-    study::Truth truth = solve(around, mesh, times);
+    Truth truth = solve(around, mesh, times);
     keep(stem, truth, mesh.nodes());
     return truth;
   } catch (const rivals::Diverged&) {

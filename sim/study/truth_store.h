@@ -13,8 +13,8 @@ class TruthStore {
   explicit TruthStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// At each of the times, ascending, s; empty where SUNDIALS gives up.
-  study::Truth at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                  const std::vector<double>& times) const;
+  Truth at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+           const std::vector<double>& times) const;
 
  private:
   std::filesystem::path folder_;

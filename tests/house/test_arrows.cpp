@@ -41,7 +41,7 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
 };
 
 // Written by CMake when the build is configured.
-const std::set<std::string> generated = {"study_version.h"};
+const std::set<std::string> generated = {"version.h"};
 
 std::string room_of(const std::string& path) {
   static const std::regex shape("(firmware|(?:rtl_model|sim)/[^/]+|tests)/.*");

@@ -1,5 +1,5 @@
 // The crest is a picture any program opens, and the same at every run.
-#include "sim/pictures/crest.h"
+#include "sim/pictures/crest/crest.h"
 #include "sim/pictures/flag_crest.h"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,14 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
-#include "sim/cosim/contestants.h"
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
+#include "sim/cosim/contestants.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
+#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
+#include "sim/run/progress.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
@@ -18,7 +20,7 @@ using run::grouped;
 using Contestants = std::vector<Contestant>;
 
 struct FuzzOptions {
-  std::vector<std::string> levels = cosim::fixed_level_names();
+  std::vector<std::string> levels = levels::level_names({levels::Kind::array});
   double seconds = 0;
   std::uint64_t seed = 1, first = 0;
   std::int64_t cases = 0;
@@ -26,10 +28,16 @@ struct FuzzOptions {
   std::string out = "out/fuzz", replay;
 };
 
-void check_levels(const FuzzOptions& o) {
-  for (const std::string& level : o.levels) cosim::check_fixed_level(level, "--levels");
-  if (cosim::contestants_of(o.levels).size() < 2)
+// In the table's order: the engine's first kernel takes any array, and leads where it takes part.
+Contestants contestants_of(const FuzzOptions& o) {
+  for (const std::string& level : o.levels) levels::level_named(level, "--levels", {levels::Kind::array});
+  std::vector<const levels::Level*> rows;
+  for (const levels::Level& level : levels::levels())
+    if (std::count(o.levels.begin(), o.levels.end(), level.name)) rows.push_back(&level);
+  Contestants all = cosim::contestants_of(rows);
+  if (all.size() < 2)
     throw input::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
+  return all;
 }
 
 std::string command_of(const FuzzOptions& o, std::uint64_t first) {
@@ -37,7 +45,8 @@ std::string command_of(const FuzzOptions& o, std::uint64_t first) {
   if (o.cases > 0)
     command += fmt::format(" --cases {}", o.first + static_cast<std::uint64_t>(o.cases) - first);
   if (o.seconds > 0) command += fmt::format(" --seconds {:g}", o.seconds);
-  if (o.levels != cosim::fixed_level_names()) command += fmt::format(" --levels {}", fmt::join(o.levels, ","));
+  if (o.levels != levels::level_names({levels::Kind::array}))
+    command += fmt::format(" --levels {}", fmt::join(o.levels, ","));
   return command;
 }
 
@@ -50,7 +59,7 @@ int tell(const FuzzOptions& o, const Contestants& all, const cosim::Finding& fin
   std::uint64_t tried = 0;
   const cosim::Differs still = [&](const cosim::ArrayJob& job) {
     progress.count(++tried);
-    return !stop_requested && cosim::differs_in_child(two, job);
+    return !levels::stop_requested && cosim::differs_in_child(two, job);
   };
   const std::filesystem::path file =
       std::filesystem::path(o.out) / fmt::format("seed-{}-case-{}.txt", o.seed, finding.number);
@@ -70,12 +79,12 @@ int campaign(const FuzzOptions& o, const Contestants& all) {
   if (o.cases > 0) plan.cases = static_cast<std::uint64_t>(o.cases);
   if (o.seconds > 0) plan.seconds = o.seconds;
   if (o.cases == 0 && o.seconds == 0) plan.seconds = 10;
-  run::catch_interrupts();
+  levels::catch_interrupts();
   cosim::CampaignResult r;
   {
     run::CountProgress progress("cases", o.cases > 0 ? plan.cases : 0);
     r = cosim::run_campaign(
-        all, plan, [&](std::uint64_t cases) { progress.count(cases); }, stop_requested);
+        all, plan, [&](std::uint64_t cases) { progress.count(cases); }, levels::stop_requested);
   }
   const double rate = r.seconds > 0 ? static_cast<double>(r.cases) / r.seconds : 0;
   fmt::print("seed {}, cases {} to {}: {} equal, {} different; {:.1f} s, {:.0f} cases/s\n", o.seed, o.first,
@@ -109,8 +118,7 @@ int replay(const FuzzOptions& o, const Contestants& all) {
 }
 
 int fuzz(const FuzzOptions& o) {
-  check_levels(o);
-  const Contestants all = cosim::contestants_of(o.levels);
+  const Contestants all = contestants_of(o);
   return o.replay.empty() ? campaign(o, all) : replay(o, all);
 }
 

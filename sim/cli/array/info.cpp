@@ -10,7 +10,7 @@ namespace hopmesh::cli {
 namespace {
 
 int info(const CommonOptions& o, bool toml) {
-  const Prepared p = prepare(o);
+  const levels::Prepared p = prepare(o);
   if (toml) {
     fmt::print("# scene\n{}\n# array\n{}", scene::scene_text(p.inputs.scene),
                scene::array_text(p.inputs.array));

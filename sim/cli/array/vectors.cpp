@@ -1,11 +1,12 @@
 // hopmesh vectors: jobs and answers for a core that is not ours, and the judge of what it answered.
 #include "sim/cosim/vectors.h"
 
-#include "sim/cosim/contestants.h"
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
+#include "sim/cosim/contestants.h"
 #include "sim/cosim/random_job.h"
+#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
+#include "sim/run/progress.h"
 #include "sim/run/simulation.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ struct VectorsOptions {
   CommonOptions common;
   std::int64_t step = -1, sweeps = 0, random = 0;
   std::uint64_t seed = 1;
-  std::string out, check, level = "engine";
+  std::string out, check, level = levels::default_level().name;
   bool blank = false;
 };
 
@@ -43,14 +44,15 @@ void check_options(const VectorsOptions& o) {
     refuse("--out", o.out.empty() ? "none" : "a file beside --check",
            "a file for the vectors, or --check FILE");
   if (o.blank && !o.check.empty()) refuse("--blank", "a file beside --check", "--out FILE");
-  cosim::check_fixed_level(o.level, "--level");
+  levels::level_named(o.level, "--level", {levels::Kind::array});
 }
 
 /// Arrays of the level for cases that come in the same order twice: SystemC's are all made before one is
 /// used.
 class Arrays {
  public:
-  explicit Arrays(const std::string& level) : contestant_(cosim::contestant_of(level)) {}
+  explicit Arrays(const std::string& level)
+      : contestant_(cosim::contestant_of(levels::level_named(level, "--level"))) {}
   bool ahead() const { return contestant_.ahead; }
   void expect(const cosim::ArrayJob& job) { made_.push_back(contestant_.make(job)); }
   cosim::SharedBus next(const cosim::ArrayJob& job) {
@@ -68,13 +70,13 @@ class Arrays {
 // The network that the driver loads in a step (of several expansions the last).
 std::optional<VectorCase> case_of_step(VectorsOptions& o) {
   if (o.step >= 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.step + 1));
-  const Prepared p = prepare(o.common);
-  Level level = make_level("engine", p, false, {});
+  const levels::Prepared p = prepare(o.common);
+  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {});
   run::RunResult result;
   {
     const auto steps = static_cast<std::uint64_t>(o.step) + 1;
     run::Progress progress(steps);
-    result = run::simulate(*level.motion, steps, {&progress}, stop_requested);
+    result = run::simulate(*level.motion, steps, {&progress}, levels::stop_requested);
   }
   if (result.rows.size() <= static_cast<std::size_t>(o.step)) {
     fmt::print("{}\n", result.sentence);
@@ -93,10 +95,10 @@ VectorCase random_case(const VectorsOptions& o, std::int64_t k) {
 }
 
 int write_vectors(VectorsOptions& o) {
-  run::catch_interrupts();
+  levels::catch_interrupts();
   std::optional<VectorCase> step;
   const bool of_scene = !o.common.scene.empty();
-  if (of_scene && !(step = case_of_step(o))) return stop_requested ? interrupted : differs;
+  if (of_scene && !(step = case_of_step(o))) return levels::stop_requested ? interrupted : differs;
   const std::int64_t cases = of_scene ? 1 : o.random;
   const auto number = [&](std::int64_t k) { return of_scene ? *step : random_case(o, k); };
   Arrays arrays(o.level);
@@ -104,7 +106,7 @@ int write_vectors(VectorsOptions& o) {
   files::check_writable(std::filesystem::absolute(o.out).parent_path(), 1 << 20);
   cosim::VectorWriter file(o.out);
   for (std::int64_t k = 0; k < cases; ++k) {
-    if (stop_requested) return interrupted;
+    if (levels::stop_requested) return interrupted;
     const VectorCase a_case = number(k);
     file.add(a_case, o.blank ? nullptr : arrays.next(a_case.job).get());
   }
@@ -117,7 +119,7 @@ int write_vectors(VectorsOptions& o) {
 // ---- the judge ----
 
 int check_vectors(const VectorsOptions& o) {
-  run::catch_interrupts();
+  levels::catch_interrupts();
   Arrays arrays(o.level);
   VectorCase a_case;
   if (arrays.ahead())
@@ -125,7 +127,7 @@ int check_vectors(const VectorsOptions& o) {
   cosim::VectorReader reader(o.check);
   std::uint64_t cases = 0, lines = 0;
   for (; reader.next(a_case); ++cases) {
-    if (stop_requested) return interrupted;
+    if (levels::stop_requested) return interrupted;
     const cosim::SharedBus bus = arrays.next(a_case.job);
     const std::string wrong = cosim::check_answers(o.check, reader, a_case, *bus, lines);
     if (wrong.empty()) continue;

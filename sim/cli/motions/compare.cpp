@@ -2,6 +2,8 @@
 #include "sim/cosim/compare.h"
 
 #include "sim/cli/options.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
 #include "sim/run/progress.h"
 
 #include <algorithm>
@@ -20,31 +22,34 @@ struct CompareOptions {
 int compare(CompareOptions& o) {
   const std::string inputs = words_of(o.common);
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
-  for (const std::string& level : o.levels) check_level(level, "--levels", level_names());
-  const Prepared p = prepare(o.common);
-  std::stable_partition(o.levels.begin(), o.levels.end(), [](const auto& l) { return l == "reference"; });
+  std::vector<const levels::Level*> rows;
+  for (const std::string& name : o.levels)
+    rows.push_back(&levels::level_named(name, "--levels", {levels::Kind::reference, levels::Kind::array}));
+  const levels::Prepared p = prepare(o.common);
+  const auto is_reference = [](const levels::Level* l) { return l->kind == levels::Kind::reference; };
+  std::stable_partition(rows.begin(), rows.end(), is_reference);
   for (const std::string& level : o.levels)
     if (std::count(o.levels.begin(), o.levels.end(), level) > 1)
       throw input::input_error("", 0, "--levels", level + " twice", "each level once");
   if (o.levels.size() < 2)
     throw input::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
-  const bool check = o.levels[0] == "reference";
-  std::vector<Level> levels;
+  const bool check = is_reference(rows[0]);
+  std::vector<levels::Ready> ready;
   std::vector<cosim::Contender> contenders;
-  for (const auto& name : o.levels) levels.push_back(make_level(name, p, check, {}));
-  for (auto& level : levels)
-    contenders.push_back({level.name, level.motion.get(), level.array, level.port.get()});
+  for (const levels::Level* row : rows) ready.push_back(levels::make_ready(*row, p, check, {}));
+  for (auto& level : ready)
+    contenders.push_back({level.level->name, level.motion.get(), level.array, level.port.get()});
 
-  run::catch_interrupts();
+  levels::catch_interrupts();
   cosim::Comparison comparison;
   {
     const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
     run::Progress progress(steps);
     comparison = cosim::compare(
         contenders, *p.mesh, p.inputs.array, steps, [&](const levels::StepRow& row) { progress.step(row); },
-        stop_requested);
+        levels::stop_requested);
   }
-  fmt::print("{}", run::text_of(comparison, inputs, p.inputs.array));
+  fmt::print("{}", cosim::text_of(comparison, inputs, p.inputs.array));
   if (comparison.outcome == run::Outcome::interrupted) return interrupted;
   return comparison.difference || comparison.outcome == run::Outcome::diverged ? differs : done;
 }

@@ -1,10 +1,11 @@
 // hopmesh run: one simulation, its files and its figures.
-#include "sim/cosim/contestants.h"
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
 #include "sim/files/output_file.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/checkpointer.h"
+#include "sim/run/progress.h"
 #include "sim/run/run_picture.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 struct RunOptions {
   CommonOptions common;
-  std::string level = "engine", out, wave_window, wave_cells;
+  std::string level = levels::default_level().name, out, wave_window, wave_cells;
   levels::WaveRequest wave;
   std::int64_t steps = 0, threads = 1;
   bool check = false, no_check = false;
@@ -29,13 +30,12 @@ std::string command_of(const RunOptions& o) {
   return "hopmesh run " + words_of(o.common) + " --level " + o.level;
 }
 
-levels::WaveRequest wave_of(const RunOptions& o) {
+levels::WaveRequest wave_of(const RunOptions& o, const levels::Level& level) {
   levels::WaveRequest wave = o.wave;
   if (wave.file.empty() && !(o.wave_window.empty() && o.wave_cells.empty()))
     throw input::input_error("", 0, o.wave_window.empty() ? "--wave-cells" : "--wave-window", "no --wave",
                              "--wave FILE.vcd");
-  const auto& fixed = cosim::fixed_level_names();
-  if (!wave.file.empty() && std::find(fixed.begin(), fixed.end(), o.level) == fixed.end())
+  if (!wave.file.empty() && !level.can_wave)
     throw input::input_error("", 0, "--wave", "level " + o.level,
                              "a level of the array: only those have signals");
   if (!o.wave_window.empty()) levels::parse_window(o.wave_window, wave);
@@ -43,35 +43,29 @@ levels::WaveRequest wave_of(const RunOptions& o) {
   return wave;
 }
 
-// The engine is for speed and has judges of its own; the reference beside every step costs many times its
-// time.
-bool asks_reference(const RunOptions& o) {
-  return o.check || (o.level != "engine" && !o.no_check);
+bool asks_reference(const RunOptions& o, const levels::Level& level) {
+  return o.check || (level.checked && !o.no_check);
 }
 
 /// A run before its first step of this process, be it the very first or one behind a checkpoint.
 struct Begun {
-  Prepared prepared;
-  Level level;
+  levels::Prepared prepared;
+  levels::Ready level;
   std::unique_ptr<run::RunFiles> files;
   run::RunResult earlier; ///< what was done before
   std::uint64_t every = 0;
 };
 
 Begun begin(RunOptions& o) {
-  check_level(o.level, "--level", method_names());
-  const PortRequest request{wave_of(o), {static_cast<std::size_t>(o.threads)}};
+  const levels::Level& level = levels::level_named(o.level, "--level");
+  const levels::PortRequest request{wave_of(o, level), {static_cast<std::size_t>(o.threads)}};
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   Begun run{prepare(o.common), {}, {}, {}, static_cast<std::uint64_t>(o.checkpoint_every)};
   if (o.steps > 0) o.common.overrides.pop_back();
   const scene::Inputs& inputs = run.prepared.inputs;
-  run.level = make_level(o.level, run.prepared, asks_reference(o), request);
-  const run::RunFacts facts{inputs,
-                              o.level,
-                              run.level.array != nullptr,
-                              command_of(o),
-                              static_cast<std::uint64_t>(o.steps),
-                              asks_reference(o)};
+  run.level = levels::make_ready(level, run.prepared, asks_reference(o, level), request);
+  const run::RunFacts facts{inputs, &level, command_of(o), static_cast<std::uint64_t>(o.steps),
+                            asks_reference(o, level)};
   const std::filesystem::path folder = o.out.empty() ? default_folder(inputs.scene.name) : o.out;
   run.files = std::make_unique<run::RunFiles>(folder, facts, *run.prepared.mesh, *run.level.motion);
   return run;
@@ -81,7 +75,6 @@ Begun begin(RunOptions& o) {
 Begun begin_again(const RunOptions& o) {
   run::ResumedRun found = run::read_run(o.resume);
   const run::Checkpoint& saved = found.saved;
-  check_level(saved.level, saved.file, method_names());
   const auto steps = static_cast<std::uint64_t>(o.steps);
   if (steps > 0 && steps <= saved.state.step)
     throw input::input_error("", 0, "--steps", std::to_string(steps),
@@ -90,18 +83,15 @@ Begun begin_again(const RunOptions& o) {
   Begun run;
   run.every = o.checkpoint_every > 0 ? static_cast<std::uint64_t>(o.checkpoint_every) : saved.every;
   run.prepared = {std::move(found.inputs), std::move(found.mesh)};
-  run.level = make_level(saved.level, run.prepared, saved.check, {{}, {static_cast<std::size_t>(o.threads)}});
+  const levels::Level& level = levels::level_named(saved.level, saved.file);
+  run.level =
+      levels::make_ready(level, run.prepared, saved.check, {{}, {static_cast<std::size_t>(o.threads)}});
   run.level.motion->restore(saved.state, saved.ranges);
   run.earlier.rows = std::move(found.rows);
   run.earlier.wall_seconds = saved.wall_seconds;
-  const run::RunFacts facts{run.prepared.inputs,
-                              saved.level,
-                              run.level.array != nullptr,
-                              saved.command,
-                              steps > 0 ? steps : saved.asked,
-                              saved.check};
-  run.files =
-      std::make_unique<run::RunFiles>(o.resume, facts, *run.prepared.mesh, std::move(found.streams));
+  const run::RunFacts facts{run.prepared.inputs, &level, saved.command, steps > 0 ? steps : saved.asked,
+                            saved.check};
+  run.files = std::make_unique<run::RunFiles>(o.resume, facts, *run.prepared.mesh, std::move(found.streams));
   return run;
 }
 
@@ -116,8 +106,8 @@ run::RunResult fly(Begun& run, std::string& trouble) {
   if (before > 0) progress.say(fmt::format("checkpoint: goes on behind {} of {} steps", before, steps));
   if (before == 0 && run.every > 0)
     safe.save(*run.level.motion); // a kill before the first K steps is resumable
-  auto result = run::simulate(*run.level.motion, steps, {run.files.get(), &safe, &progress}, stop_requested,
-                                run.earlier);
+  auto result = run::simulate(*run.level.motion, steps, {run.files.get(), &safe, &progress},
+                              levels::stop_requested, run.earlier);
   try {
     if (result.outcome == run::Outcome::interrupted) safe.save(*run.level.motion);
   } catch (const files::WriteError& error) {
@@ -127,7 +117,7 @@ run::RunResult fly(Begun& run, std::string& trouble) {
 }
 
 int run(RunOptions& o) {
-  run::catch_interrupts(); // from here on a run that is stopped leaves a folder to go on with
+  levels::catch_interrupts(); // from here on a run that is stopped leaves a folder to go on with
   Begun run = o.resume.empty() ? begin(o) : begin_again(o);
   std::string trouble;
   const run::RunResult result = fly(run, trouble);
@@ -174,9 +164,9 @@ void add_run(CLI::App& program, int& exit_code) {
   add_common(*verb, o->common);
   verb->add_option(
           "--level", o->level,
-          "reference | engine | systemc | systemc-clock (every neuron woken at every clock), or a "
-          "rival in double: symplectic_euler | velocity_verlet | rk4 | backward_euler | bdf2 | xpbd | "
-          "projective_dynamics")
+          fmt::format("{}, or a rival in double: {}",
+                      fmt::join(levels::level_names({levels::Kind::reference, levels::Kind::array}), " | "),
+                      fmt::join(levels::level_names({levels::Kind::rival}), " | ")))
       ->capture_default_str();
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");

@@ -1,9 +1,11 @@
 // hopmesh network: the network of one step as files that other programs read.
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
 #include "sim/files/matrix_market.h"
 #include "sim/files/npy.h"
+#include "sim/levels/reference_motion.h"
+#include "sim/levels/stop.h"
 #include "sim/run/counted.h"
+#include "sim/run/progress.h"
 #include "sim/run/simulation.h"
 
 #include <fmt/format.h>
@@ -38,18 +40,18 @@ void write_files(const std::filesystem::path& folder, const reference::Step& ste
 }
 
 int network(NetworkOptions& o) {
-  const Prepared p = prepare(o.common);
+  const levels::Prepared p = prepare(o.common);
   if (o.step >= p.inputs.scene.motion.steps)
     throw input::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   files::check_writable(o.out, p.mesh->topology().weight_words() * 48 + p.mesh->nodes() * 256);
   levels::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
-  run::catch_interrupts();
+  levels::catch_interrupts();
   run::RunResult result;
   {
     const auto steps = static_cast<std::uint64_t>(o.step) + 1;
     run::Progress progress(steps);
-    result = run::simulate(motion, steps, {&progress}, stop_requested);
+    result = run::simulate(motion, steps, {&progress}, levels::stop_requested);
   }
   if (result.outcome == run::Outcome::interrupted) return interrupted;
   if (result.rows.size() <= static_cast<std::size_t>(o.step)) {
@@ -60,8 +62,7 @@ int network(NetworkOptions& o) {
   const levels::StepRow& row = result.rows.back();
   fmt::print("{} step {}: {}, {}, {}; written to {}\n", p.inputs.scene.name, o.step,
              run::counted(static_cast<std::uint64_t>(motion.last_step().network.W.nonZeros()), "weight"),
-             run::counted(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps",
-             o.out);
+             run::counted(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps", o.out);
   if (p.inputs.scene.motion.formulation == scene::Formulation::incremental)
     fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
   return done;

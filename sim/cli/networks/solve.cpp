@@ -1,11 +1,13 @@
 // hopmesh solve: any network that somebody brings, or one of the problem set, relaxed at any level.
 #include "rtl_model/spec/array_rules.h"
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
-#include "sim/networks/problems/problem.h"
 #include "sim/files/output_file.h"
 #include "sim/input/array_file.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
+#include "sim/networks/problems/problem.h"
 #include "sim/networks/solution.h"
+#include "sim/run/progress.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,7 +18,7 @@ namespace {
 
 struct SolveRequest {
   networks::NetworkFiles files;
-  std::string rule, level = "engine", array, out;
+  std::string rule, level = levels::default_level().name, array, out;
   std::vector<std::string> overrides;
   std::int64_t sweeps = 10'000, seed = 0;
   double threshold = 1e-4;
@@ -87,18 +89,20 @@ int finish(const SolveRequest& o, const Task& task, const networks::GivenNetwork
       networks::solve(network, level, {o.threshold, static_cast<std::uint32_t>(o.sweeps)});
   if (task.verdict) label.verdict = task.verdict({solution.V.data(), solution.V.data() + solution.V.size()});
   if (!o.out.empty()) {
-    networks::write_sweeps(std::filesystem::path(o.out) / "solve.csv", network, level, solution, stop_requested);
+    networks::write_sweeps(std::filesystem::path(o.out) / "solve.csv", network, level, solution,
+                           levels::stop_requested);
     networks::write_solution(o.out, label, network, solution);
   }
-  fmt::print("{}", run::text_of(label, network, solution));
+  fmt::print("{}", networks::text_of(label, network, solution));
   return solution.rest.converged ? done : differs;
 }
 
 int solve(const SolveRequest& o) {
-  check_level(o.level, "--level", level_names());
+  const levels::Level& row =
+      levels::level_named(o.level, "--level", {levels::Kind::reference, levels::Kind::array});
   if (!(o.threshold >= 0 && o.threshold <= 2))
     throw input::input_error("", 0, "--threshold", fmt::format("{}", o.threshold), "a number from 0 to 2");
-  if (!o.rule.empty()) check_level(o.rule, "--rule", {"modified", "binary"});
+  if (!o.rule.empty()) check_name(o.rule, "--rule", {"modified", "binary"});
   const Overrides overrides = overrides_of(o);
   spec::ArraySpec array = input::read_array(o.array, overrides);
   const Task task = task_of(o);
@@ -106,9 +110,9 @@ int solve(const SolveRequest& o) {
   const networks::GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), o.array);
   if (!o.out.empty()) files::check_writable(o.out, network.neurons() * 32);
-  run::catch_interrupts();
+  levels::catch_interrupts();
   std::unique_ptr<levels::ArrayPort> port;
-  if (o.level != "reference") port = make_port(o.level, array, network.topology(), {});
+  if (row.has_bus()) port = row.make_port(array, network.topology(), {});
   const auto level =
       port ? networks::array_level(network, array, *port) : networks::reference_level(network, array);
   try {
@@ -134,7 +138,10 @@ void add_solve(CLI::App& program, int& exit_code) {
   verb->add_option("--rule", o->rule,
                    "modified | binary: array.output; none: as the problem or the array has it");
   verb->add_flag("--asymmetric", o->files.asymmetric, "W may be so: then nothing says that energy falls");
-  verb->add_option("--level", o->level, "reference | engine | systemc | systemc-clock")
+  verb->add_option(
+          "--level", o->level,
+          fmt::format("{}",
+                      fmt::join(levels::level_names({levels::Kind::reference, levels::Kind::array}), " | ")))
       ->capture_default_str();
   verb->add_option("--array", o->array, "an array file, or the name of a preset");
   verb->add_option("--set", o->overrides, "key.path=value: overrides a key of the array")

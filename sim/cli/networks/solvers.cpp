@@ -1,9 +1,11 @@
 // hopmesh solvers: other ways to the answer of one step's network, beside the network's own and the array's.
-#include "sim/networks/array_solver.h"
-#include "sim/run/progress.h"
-#include "sim/networks/step_problem.h"
 #include "sim/files/csv.h"
+#include "sim/cli/options.h"
+#include "sim/levels/stop.h"
+#include "sim/networks/array_solver.h"
+#include "sim/networks/step_problem.h"
 #include "sim/pictures/svg_chart.h"
+#include "sim/run/progress.h"
 #include "sim/run/simulation.h"
 
 #include <algorithm>
@@ -87,9 +89,9 @@ std::string chart_of(const solvers::Race& race, const std::vector<double>& gaps,
 /// Up to and with the step; none where it was reached, else how the program ends.
 std::optional<int> walk(levels::ReferenceMotion& motion, std::uint64_t step, levels::StepState& before) {
   run::Progress progress(step + 1);
-  run::RunResult result = run::simulate(motion, step, {&progress}, stop_requested);
+  run::RunResult result = run::simulate(motion, step, {&progress}, levels::stop_requested);
   before = motion.state();
-  result = run::simulate(motion, step + 1, {&progress}, stop_requested, std::move(result));
+  result = run::simulate(motion, step + 1, {&progress}, levels::stop_requested, std::move(result));
   if (result.outcome == run::Outcome::interrupted) return interrupted;
   if (result.rows.size() > step) return std::nullopt;
   fmt::print("{}\n", result.sentence);
@@ -108,24 +110,25 @@ void write_files(const SolversOptions& o, const solvers::Race& race, const std::
   const std::filesystem::path folder = o.out;
   write_csv(race, o.gaps, folder / "solvers.csv");
   files::write_file(folder / "solvers.svg", chart_of(race, o.gaps, title + ": ways to its network's answer",
-                                                      "hopmesh solvers " + words_of(o)));
+                                                     "hopmesh solvers " + words_of(o)));
   fmt::print("Results\n  {}\n  {}\n", (folder / "solvers.csv").string(), (folder / "solvers.svg").string());
 }
 
 /// The rivals, and the array before them.
-int race_all(const SolversOptions& o, const Prepared& p, const solvers::Problem& whole) {
+int race_all(const SolversOptions& o, const levels::Prepared& p, const solvers::Problem& whole) {
   const solvers::Problem problem = solvers::reached(whole);
   const solvers::Limits limits{o.gaps, static_cast<std::uint64_t>(o.max_sweeps)};
   const std::string title = fmt::format("{} step {}", p.inputs.scene.name, o.step);
-  solvers::Race race = solvers::race(problem, limits, stop_requested);
-  if (stop_requested) return interrupted;
+  solvers::Race race = solvers::race(problem, limits, levels::stop_requested);
+  if (levels::stop_requested) return interrupted;
   if (race.courses.empty()) {
     fmt::print("{}: the network starts at its rest; there is nothing to solve\n", title);
     return differs;
   }
   networks::StepArray array(whole, p);
-  race.courses.insert(race.courses.begin(), networks::run_array(array, problem, race.answer, limits, stop_requested));
-  if (stop_requested) return interrupted;
+  race.courses.insert(race.courses.begin(),
+                      networks::run_array(array, problem, race.answer, limits, levels::stop_requested));
+  if (levels::stop_requested) return interrupted;
   fmt::print("{}: {} outputs, {} weights; {}\n", title, problem.I.size(), problem.W.nonZeros(),
              race.answer.convex ? "convex, gaps to the exact answer"
                                 : "not convex, gaps to the lowest energy found");
@@ -142,13 +145,13 @@ int solvers(SolversOptions& o) {
   std::sort(o.gaps.rbegin(), o.gaps.rend());
   if (const auto twice = std::adjacent_find(o.gaps.begin(), o.gaps.end()); twice != o.gaps.end())
     throw input::input_error("", 0, "--gap", fmt::format("{:g} twice", *twice), "each gap once");
-  const Prepared p = prepare(o.common);
+  const levels::Prepared p = prepare(o.common);
   if (o.step >= p.inputs.scene.motion.steps)
     throw input::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   if (!o.out.empty()) files::check_writable(o.out, 1 << 20);
   levels::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
-  run::catch_interrupts();
+  levels::catch_interrupts();
   levels::StepState before;
   if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;
   try {

@@ -1,11 +1,14 @@
 // hopmesh budget: how much of a run's distance from the truth is whose.
-#include "sim/levels/exact_step.h"
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
-#include "sim/study/truth_store.h"
 #include "sim/files/csv.h"
+#include "sim/levels/reference_motion.h"
+#include "sim/levels/exact_step.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
+#include "sim/run/progress.h"
 #include "sim/study/error_budget.h"
+#include "sim/study/truth_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +45,11 @@ struct Budget {
   std::vector<study::BudgetAt> rows; ///< where everybody came to
 };
 
-bool is_probe(const Prepared& p) {
+bool is_probe(const levels::Prepared& p) {
   return p.inputs.scene.motion.formulation == scene::Formulation::probe;
 }
 
-void set_steps(const BudgetOptions& o, Prepared& p) {
+void set_steps(const BudgetOptions& o, levels::Prepared& p) {
   scene::MotionSpec& motion = p.inputs.scene.motion;
   if (o.steps > 0) motion.steps = o.steps;
   if (o.time == 0) return;
@@ -74,7 +77,7 @@ scene::Scene at_rest_scene(const BudgetOptions& o, scene::Scene scene) {
 }
 
 /// `p` and the array's level outlive the motions.
-std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Level& array) {
+std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p, const levels::Ready& array) {
   const scene::Scene& scene = p.inputs.scene;
   std::vector<Link> chain;
   const std::shared_ptr<levels::Motion> run(std::shared_ptr<void>(), array.motion.get());
@@ -83,10 +86,11 @@ std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Leve
                    "unfinished relaxation",
                    std::make_shared<levels::ReferenceMotion>(scene, *p.mesh, p.inputs.array),
                    {}});
-  chain.push_back({"reference, relaxed to rest",
-                   "formulation",
-                   std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
-                   {}});
+  chain.push_back(
+      {"reference, relaxed to rest",
+       "formulation",
+       std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
+       {}});
   if (!is_probe(p))
     chain.push_back({scene.incremental.rule + ", each step solved exactly",
                      "time step",
@@ -96,12 +100,13 @@ std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Leve
 }
 
 /// Flies one motion; false where it was interrupted.
-bool fly(const Prepared& p, Link& link, Budget& budget) {
+bool fly(const levels::Prepared& p, Link& link, Budget& budget) {
   const scene::MotionSpec& motion = p.inputs.scene.motion;
   const auto steps = static_cast<std::uint64_t>(motion.steps);
   run::Snapshots snapshots(budget.times, motion.time_step);
   run::Progress progress(steps);
-  const run::RunResult result = run::simulate(*link.made, steps, {&snapshots, &progress}, stop_requested);
+  const run::RunResult result =
+      run::simulate(*link.made, steps, {&snapshots, &progress}, levels::stop_requested);
   if (result.outcome == run::Outcome::diverged)
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
   const auto unfinished = std::count_if(result.rows.begin(), result.rows.end(),
@@ -112,7 +117,7 @@ bool fly(const Prepared& p, Link& link, Budget& budget) {
   return result.outcome != run::Outcome::interrupted;
 }
 
-void add_truth(const Prepared& p, const fs::path& folder, Budget& budget) {
+void add_truth(const levels::Prepared& p, const fs::path& folder, Budget& budget) {
   const study::Truth truth = study::TruthStore(folder).at(p.inputs, *p.mesh, budget.times);
   if (truth.positions.empty())
     budget.troubles.emplace_back("truth: SUNDIALS gave up, so there is nothing to measure against");
@@ -139,7 +144,7 @@ std::vector<std::string> parts_of(const Budget& budget) {
   return names;
 }
 
-void print(const Prepared& p, const Budget& budget) {
+void print(const levels::Prepared& p, const Budget& budget) {
   fmt::print("{}: whose part of the distance from the truth is how large\n", p.inputs.scene.name);
   for (std::size_t k = 0; k + 1 < budget.chain.size(); ++k)
     fmt::print("  {:<22} {}\n  {:<22} less {}\n", budget.chain[k].mends, budget.chain[k].motion, "",
@@ -176,7 +181,7 @@ void write_table(const fs::path& file, const Budget& budget) {
   table.commit();
 }
 
-pictures::StackedBars picture_of(const Prepared& p, const Budget& budget) {
+pictures::StackedBars picture_of(const levels::Prepared& p, const Budget& budget) {
   pictures::StackedBars bars;
   bars.title = p.inputs.scene.name + ": where the distance from the truth comes from";
   bars.note = fmt::format("array {}; Δt = {} s", p.inputs.array.name, p.inputs.scene.motion.time_step);
@@ -197,13 +202,13 @@ pictures::StackedBars picture_of(const Prepared& p, const Budget& budget) {
 }
 
 int budget(const BudgetOptions& o) {
-  Prepared p = prepare(o.common);
+  levels::Prepared p = prepare(o.common);
   set_steps(o, p);
   rivals::surroundings_of(p.inputs.scene); // refuses what has no truth, before the work
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-budget") : o.out;
   files::check_writable(folder, 0);
-  run::catch_interrupts();
-  const Level array = make_level("engine", p, false, {{}, {}, true});
+  levels::catch_interrupts();
+  const levels::Ready array = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
   Budget budget;
   budget.times = times_of(p.inputs.scene.motion);
   budget.chain = chain_of(o, p, array);

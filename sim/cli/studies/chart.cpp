@@ -1,9 +1,9 @@
 // hopmesh chart: results.csv as a picture of speed against accuracy.
 #include "sim/cli/options.h"
-#include "sim/pictures/chart_page.h"
 #include "sim/files/output_file.h"
-#include "sim/pictures/svg_chart.h"
 #include "sim/input/whole_file.h"
+#include "sim/pictures/chart_page.h"
+#include "sim/pictures/svg_chart.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ int chart(ChartOptions o) {
   const CsvTable table = [&] {
     try {
       return files::parse_csv(input::read_whole_file(results.string(), "the results of a sweep", most_bytes),
-                               results.string());
+                              results.string());
     } catch (const input::InputError&) {
       throw;
     } catch (const std::runtime_error& error) {

@@ -1,12 +1,15 @@
 // hopmesh size: the least array that meets an error on a scene, and what shows that it is.
 #include "sim/cli/options.h"
-#include "sim/study/size_search.h"
-#include "sim/study/truth_store.h"
 #include "sim/files/csv.h"
 #include "sim/files/running_check.h"
+#include "sim/levels/reference_motion.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
 #include "sim/rivals/physics.h"
 #include "sim/run/array_info.h"
 #include "sim/run/counted.h"
+#include "sim/study/size_search.h"
+#include "sim/study/truth_store.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,12 +41,12 @@ struct Target {
   std::string trouble;
 };
 
-Target target_of(const SizeOptions& o, const Prepared& p, const fs::path& folder) {
+Target target_of(const SizeOptions& o, const levels::Prepared& p, const fs::path& folder) {
   const scene::MotionSpec& motion = p.inputs.scene.motion;
   levels::ReferenceMotion reference(p.inputs.scene, *p.mesh, p.inputs.array);
   run::Progress progress(static_cast<std::uint64_t>(motion.steps));
   const run::RunResult result =
-      run::simulate(reference, static_cast<std::uint64_t>(motion.steps), {&progress}, stop_requested);
+      run::simulate(reference, static_cast<std::uint64_t>(motion.steps), {&progress}, levels::stop_requested);
   if (result.outcome == run::Outcome::interrupted) throw study::SearchStopped();
   Target target;
   target.positions = reference.positions();
@@ -63,14 +66,15 @@ Target target_of(const SizeOptions& o, const Prepared& p, const fs::path& folder
 }
 
 // Ranges are of values: the array as given shows them.
-std::vector<levels::SignalRange> ranges_of(const Prepared& p) {
-  const Level level = make_level("engine", p, false, {{}, {}, true});
-  run::simulate(*level.motion, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {}, stop_requested);
-  if (stop_requested) throw study::SearchStopped();
+std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
+  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
+  run::simulate(*level.motion, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
+                levels::stop_requested);
+  if (levels::stop_requested) throw study::SearchStopped();
   return level.motion->ranges();
 }
 
-std::uint64_t hash_of(const SizeOptions& o, const Prepared& p) {
+std::uint64_t hash_of(const SizeOptions& o, const levels::Prepared& p) {
   files::RunningCheck check;
   for (const std::string& text :
        {o.against, scene::scene_text(p.inputs.scene), scene::array_text(p.inputs.array)})
@@ -97,7 +101,7 @@ std::string file_command(const SizeOptions& o, const fs::path& folder) {
   return "hopmesh run " + words_of(common) + (o.steps > 0 ? fmt::format(" --steps {}", o.steps) : "");
 }
 
-void write_evidence(const fs::path& file, const SizeOptions& o, const Prepared& p,
+void write_evidence(const fs::path& file, const SizeOptions& o, const levels::Prepared& p,
                     const study::Sizing& sizing, const study::SizeFound& found) {
   std::vector<std::string> columns{"what", "knob"};
   columns.insert(columns.end(), std::begin(study::knob_names), std::end(study::knob_names));
@@ -158,7 +162,7 @@ void print_knobs(const study::Sizing& sizing, const study::SizeFound& found) {
   }
 }
 
-void print_lanes(const SizeOptions& o, const Prepared& p, const study::Sizing& sizing,
+void print_lanes(const SizeOptions& o, const levels::Prepared& p, const study::Sizing& sizing,
                  const study::SizeFound& found) {
   fmt::print("Lanes: {}, {}\n", found.setting[study::k_lanes],
              o.time_per_step > 0 ? fmt::format("the fewest that do the slowest step in {} s", o.time_per_step)
@@ -176,7 +180,7 @@ void print_lanes(const SizeOptions& o, const Prepared& p, const study::Sizing& s
                run::grouped(run::multiplier_bits(*p.mesh, array)));
 }
 
-void print(const SizeOptions& o, const Prepared& p, const study::Sizing& sizing, const Target& target,
+void print(const SizeOptions& o, const levels::Prepared& p, const study::Sizing& sizing, const Target& target,
            const study::SizeFound& found, const fs::path& folder) {
   const study::SizeEvidence &size = found.evidence[0], &file = found.evidence[1];
   fmt::print("{}: at most {} m rms from the {} after {}\n", p.inputs.scene.name, o.error, o.against,
@@ -196,7 +200,8 @@ void print(const SizeOptions& o, const Prepared& p, const study::Sizing& sizing,
   fmt::print("Results\n  {}\n  {}\n", (folder / "size.toml").string(), (folder / "size.csv").string());
 }
 
-int search(const SizeOptions& o, const Prepared& p, const fs::path& folder, const study::TrialFolder& kept) {
+int search(const SizeOptions& o, const levels::Prepared& p, const fs::path& folder,
+           const study::TrialFolder& kept) {
   const Target target = target_of(o, p, folder);
   if (!target.trouble.empty() || o.error < target.reached) {
     fmt::print("{}: {}\n", p.inputs.scene.name,
@@ -214,7 +219,7 @@ int search(const SizeOptions& o, const Prepared& p, const fs::path& folder, cons
   study::SizeTrials trials(sizing, kept, target.positions, workers);
   const auto sweeps = static_cast<std::uint64_t>(most_sweeps * static_cast<double>(target.sweeps));
   const study::SizeGoal goal{o.error, o.time_per_step, sweeps, p.inputs.array.clock_mhz,
-                      p.mesh->topology().most_taps()};
+                             p.mesh->topology().most_taps()};
   const study::SizeFound found = study::find_size(sizing, goal, trials);
   if (!found.reached) {
     fmt::print("{}: {}\n", p.inputs.scene.name, found.why);
@@ -227,8 +232,8 @@ int search(const SizeOptions& o, const Prepared& p, const fs::path& folder, cons
 }
 
 int size(const SizeOptions& o) {
-  run::catch_interrupts();
-  Prepared p = prepare(o.common);
+  levels::catch_interrupts();
+  levels::Prepared p = prepare(o.common);
   if (o.steps > 0) p.inputs.scene.motion.steps = o.steps;
   const study::Sizing checked(p.inputs, *p.mesh);                    // refuses before anything is written
   if (o.against == "truth") rivals::surroundings_of(p.inputs.scene); // so does this

@@ -1,8 +1,8 @@
 // hopmesh stability: a study over two numeric axes, each cell a class.
 #include "sim/cli/options.h"
 #include "sim/cli/studies/study_run.h"
-#include "sim/pictures/chart_page.h"
 #include "sim/files/csv.h"
+#include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_map.h"
 #include "sim/study/study_folder.h"
 
@@ -92,7 +92,7 @@ class MapOfStudy {
     for (pictures::MapPanel& panel : map_.panels)
       if (panel.title == title) return panel;
     const std::vector<std::vector<pictures::MapCell>> empty(map_.ys.size(),
-                                                          std::vector<pictures::MapCell>(map_.xs.size()));
+                                                            std::vector<pictures::MapCell>(map_.xs.size()));
     map_.panels.push_back(
         {title, empty, {{"dt omega = 2", {}}, {"dt omega = 2.83", {}}, {"sweeps = 0.4 (dt omega)^2", {}}}});
     return map_.panels.back();

@@ -1,11 +1,13 @@
 #include "sim/cli/studies/study_run.h"
 
 #include "sim/cli/options.h"
-#include "sim/run/progress.h"
-#include "sim/study/truth_store.h"
 #include "sim/files/output_file.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
+#include "sim/run/progress.h"
 #include "sim/study/point_pool.h"
 #include "sim/study/study_folder.h"
+#include "sim/study/truth_store.h"
 
 #include <algorithm>
 #include <chrono>
@@ -53,13 +55,14 @@ int one_point(const study::Study& study, const study::StudyFolder& folder, const
   const study::Point point = study::point_of(study, number);
   study::PointRow row;
   try {
-    row = study::run_point(point, study::inputs_of(study, point), study.times, methods, stop_requested);
+    row =
+        study::run_point(point, study::inputs_of(study, point), study.times, methods, levels::stop_requested);
   } catch (const std::exception& error) {
     row.status = "failed";
     row.stability = study::Stability::blow_up;
     row.sentence = error.what();
   }
-  if (stop_requested || row.status == "interrupted") return interrupted;
+  if (levels::stop_requested || row.status == "interrupted") return interrupted;
   folder.keep(point, row);
   return done;
 }
@@ -86,11 +89,11 @@ bool run_local(const StudyOptions& o, const study::Study& study, const study::St
   return study::run_in_children(
       numbers, workers_of(o), [&](std::size_t n) { return one_point(study, folder, methods, n); },
       [&](std::size_t n, const study::ChildEnd& end) {
-        const bool asked = stop_requested || end.exit_code == interrupted;
+        const bool asked = levels::stop_requested || end.exit_code == interrupted;
         if (!asked && !folder.has(n)) keep_crash(study, folder, n, end);
         progress.count(++count);
       },
-      stop_requested);
+      levels::stop_requested);
 }
 
 // Each task of the job array is this program on its share of the points; sbatch waits for all of them.
@@ -125,12 +128,13 @@ void tell_rest(const StudyOptions& o, const study::Study& study, const study::St
 // A level keeps references to what it was made from: all of it lives as long as the motion.
 std::shared_ptr<levels::Motion> motion_of(const std::string& method, const scene::Inputs& inputs) {
   struct Kept {
-    Prepared prepared;
-    Level level;
+    levels::Prepared prepared;
+    levels::Ready level;
   };
   auto kept = std::make_shared<Kept>();
   kept->prepared = {inputs, std::make_unique<levels::BuiltMesh>(inputs.scene)};
-  kept->level = make_level(method, kept->prepared, true, {{}, {}, true});
+  kept->level =
+      levels::make_ready(levels::level_named(method, "methods"), kept->prepared, true, {{}, {}, true, false});
   levels::Motion* motion = kept->level.motion.get();
   return {kept, motion};
 }
@@ -151,11 +155,10 @@ void add_study(CLI::App& verb, StudyOptions& o) {
 }
 
 study::Methods all_methods(const fs::path& folder) {
-  const auto truth = [store = study::TruthStore(folder)](const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                                                  const std::vector<double>& times) {
-    return store.at(inputs, mesh, times);
-  };
-  return {method_names(), motion_of, truth};
+  const auto truth = [store = study::TruthStore(folder)](
+                         const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                         const std::vector<double>& times) { return store.at(inputs, mesh, times); };
+  return {levels::method_names(), motion_of, truth};
 }
 
 int run_study(const StudyOptions& o, const study::Study& study, fs::path& where) {
@@ -164,13 +167,13 @@ int run_study(const StudyOptions& o, const study::Study& study, fs::path& where)
   const Share share = share_of(o);
   const std::uint64_t hash = study::check_points(study, methods);
   const study::StudyFolder folder(study, where, hash, share.of == 1);
-  run::catch_interrupts();
+  levels::catch_interrupts();
   const auto began = std::chrono::steady_clock::now();
   const bool whole =
       o.executor == "slurm" ? run_slurm(o, study, folder) : run_local(o, study, folder, methods);
   if (!whole || share.of > 1 || !folder.missing().empty()) {
     tell_rest(o, study, folder);
-    return whole ? done : stop_requested ? interrupted : differs;
+    return whole ? done : levels::stop_requested ? interrupted : differs;
   }
   std::string counts;
   for (const auto& [status, count] : folder.collect())

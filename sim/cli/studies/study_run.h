@@ -1,8 +1,8 @@
 // What `sweep` and `stability` have in common: the points of a study into a folder, here or by Slurm.
 #pragma once
 
-#include "sim/study/study_file.h"
 #include "sim/study/point_runner.h"
+#include "sim/study/study_file.h"
 
 #include <CLI/CLI.hpp>
 

@@ -2,9 +2,9 @@
 // what somebody saved for a viewer fits both.
 #pragma once
 
-#include "sim/levels/waves/wave_request.h"
 #include "sim/engine/clocked.h"
 #include "sim/files/vcd.h"
+#include "sim/levels/waves/wave_request.h"
 
 namespace hopmesh::levels {
 

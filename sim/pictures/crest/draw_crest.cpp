@@ -1,5 +1,5 @@
 // Part of the build: draws the crest and writes it as the C++ source of flag_crest().
-#include "sim/pictures/crest.h"
+#include "sim/pictures/crest/crest.h"
 
 #include <cstdio>
 
@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
   std::FILE* file = argc == 2 ? std::fopen(argv[1], "w") : nullptr;
   if (file == nullptr) return std::fputs("usage: draw_crest OUTPUT.cpp\n", stderr), 2;
   const std::string png = hopmesh::pictures::crest_png(512);
-  std::fputs("// Made by sim/record/draw_crest.cpp.\n#include \"sim/record/flag_crest.h\"\n\n"
+  std::fputs("// Made by sim/pictures/draw_crest.cpp.\n#include \"sim/pictures/flag_crest.h\"\n\n"
              "namespace hopmesh::pictures {\n\nnamespace {\n\nconstexpr unsigned char png[] = {",
              file);
   for (std::size_t k = 0; k < png.size(); ++k)

@@ -1,6 +1,6 @@
 // Every shape is a signed distance (negative inside) in a square of side 2, the origin in its middle, y down;
 // a pixel takes a shape's colour by how much of the pixel the shape covers. Painted from the cloth upwards.
-#include "sim/pictures/crest.h"
+#include "sim/pictures/crest/crest.h"
 
 #include <algorithm>
 #include <array>
