@@ -2,6 +2,8 @@
 // columns, flags.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <regex>
 #include <set>
 

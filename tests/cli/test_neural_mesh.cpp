@@ -1,6 +1,8 @@
 // The uses of Neural Mesh (docs/neural-mesh.md): each shipped scene against its closed form, at every level.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <cmath>
 #include <fstream>
 #include <sstream>

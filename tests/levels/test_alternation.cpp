@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::levels {
 namespace {
 
 using reference::Vector;
@@ -48,4 +48,4 @@ TEST(Alternation, IsNoneForASwingThatDies) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::levels

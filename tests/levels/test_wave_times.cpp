@@ -1,5 +1,5 @@
 // Times in a wave: from the first edge of its window to the last, at whatever clock.
-#include "tests/systemc/wave_file.h"
+#include "tests/levels/wave_file.h"
 
 #include <numeric>
 
@@ -19,14 +19,16 @@ void expect_edges(const Vcd& vcd, std::uint64_t count, std::uint64_t clock) {
   for (std::uint64_t edge : edges) ASSERT_EQ(edge % clock, 0u) << edge;
 }
 
-TEST_P(WaveFile, HasAnEdgeForEveryCycleOfTheRun) {
+class WaveTimes : public WaveFile {};
+
+TEST_P(WaveTimes, HasAnEdgeForEveryCycleOfTheRun) {
   const Vcd vcd = wave(nine + " --steps 3");
   expect_edges(vcd, sum(cycles()), period);
   EXPECT_EQ(vcd.at(".device.irq").rises().size(), 3u);
   EXPECT_EQ(vcd.at(".sequencer.busy").last(), 0);
 }
 
-TEST_P(WaveFile, HasThemAtAnyClock) {
+TEST_P(WaveTimes, HasThemAtAnyClock) {
   for (const auto& [mhz, clock] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"1000", 1000}, {"333", 3003}, {"3", 333333}, {"0.001", 1000000000}}) {
     SCOPED_TRACE(mhz + " MHz");
@@ -35,7 +37,7 @@ TEST_P(WaveFile, HasThemAtAnyClock) {
   }
 }
 
-TEST_P(WaveFile, WindowsOfStepsHoldTheirStepsOnly) {
+TEST_P(WaveTimes, WindowsOfStepsHoldTheirStepsOnly) {
   wave(nine + " --steps 4");
   const auto all = cycles();
   ASSERT_EQ(all.size(), 4u);
@@ -48,7 +50,7 @@ TEST_P(WaveFile, WindowsOfStepsHoldTheirStepsOnly) {
 }
 
 /// Wherever a window of cycles begins and ends: in a phase, at an end of one, at the ends of runs.
-TEST_P(WaveFile, WindowsOfCyclesHoldTheirCyclesOnly) {
+TEST_P(WaveTimes, WindowsOfCyclesHoldTheirCyclesOnly) {
   wave(nine + " --steps 3");
   const auto all = cycles();
   const std::uint64_t one = all[0], two = all[0] + all[1], total = sum(all);
@@ -75,7 +77,7 @@ TEST_P(WaveFile, WindowsOfCyclesHoldTheirCyclesOnly) {
   }
 }
 
-TEST_P(WaveFile, OutputsChangeOnEdgesOnly) {
+TEST_P(WaveTimes, OutputsChangeOnEdgesOnly) {
   const Vcd vcd = wave(nine + " --steps 1");
   const auto edges = vcd.at(".sequencer.clock").rises();
   for (std::size_t k = 0; k < 24; ++k)
@@ -85,7 +87,7 @@ TEST_P(WaveFile, OutputsChangeOnEdgesOnly) {
           << c.picoseconds;
 }
 
-TEST_P(WaveFile, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
+TEST_P(WaveTimes, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
   for (const char* bad : {"3-1", "0-999999999"}) {
     EXPECT_EQ(run(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad), 2) << bad;
     const std::string told = content(folder / "err.txt");
@@ -93,7 +95,7 @@ TEST_P(WaveFile, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(At, WaveFile, testing::Values("systemc", "engine"),
+INSTANTIATE_TEST_SUITE_P(At, WaveTimes, testing::Values("systemc", "engine"),
                          [](const auto& level) { return level.param; });
 
 } // namespace

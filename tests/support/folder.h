@@ -8,12 +8,12 @@
 #include <iterator>
 #include <string>
 
-namespace hopmesh::record {
+namespace hopmesh::tests {
 
 class Folder {
  public:
   Folder() {
-    std::string name = testing::TempDir() + "hopmesh-record-XXXXXX";
+    std::string name = testing::TempDir() + "hopmesh-test-XXXXXX";
     if (!::mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder " << name;
     path_ = name;
   }
@@ -37,4 +37,4 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-} // namespace hopmesh::record
+} // namespace hopmesh::tests

@@ -1,4 +1,4 @@
-#include "tests/systemc/vcd.h"
+#include "tests/support/vcd.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,7 +1,7 @@
 // Writes the sample run's report and animation for looking at: record_samples FOLDER. Not a test.
+#include "sim/files/output_file.h"
 #include "sim/pictures/flag_crest.h"
 #include "sim/pictures/gltf.h"
-#include "sim/files/output_file.h"
 #include "sim/pictures/report.h"
 #include "tests/pictures/sample_run.h"
 
@@ -9,7 +9,7 @@
 #include <iostream>
 
 int main(int argc, char** argv) try {
-  using namespace hopmesh::record;
+  using namespace hopmesh::pictures;
   const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
   check_writable(folder, 20'000'000);
   RunView view = sample_run();

@@ -1,7 +1,9 @@
 // A folder of its own for each test, and runs of the built program in it.
 #pragma once
 
-#include "tests/systemc/vcd.h"
+#include "tests/support/vcd.h"
+
+#include "place.h"
 
 #include <cstring>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "tests/levels/soft_array.h"
+#include "tests/support/soft_array.h"
 
 #include <algorithm>
 #include <cstdlib>

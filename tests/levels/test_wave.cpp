@@ -1,6 +1,8 @@
 // --wave of the built program: every register of the model, the cells asked for, the bits of the run, whole
 // or absent, and one line for a bad window.
-#include "tests/systemc/wave_file.h"
+#include "tests/levels/wave_file.h"
+
+#include "place.h"
 
 #include <algorithm>
 #include <csignal>
