@@ -20,7 +20,7 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},
-    {"sim/rivals", {"sim/scene"}},
+    {"sim/rivals", {"sim/input", "sim/scene"}},
     {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h"}},
     {"sim/files", {"sim/input"}},
     {"sim/pictures", {"sim/files"}},
@@ -42,7 +42,7 @@ const std::map<std::string, Rooms> allowed = {
 
 // Which rooms may know a library from outside. Firmware knows none but <stdint.h>.
 const std::vector<std::pair<std::regex, Rooms>> libraries = {
-    {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/levels"}},
+    {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/levels", "sim/cli"}},
     {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals", "sim/networks"}},
     {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
