@@ -1,4 +1,5 @@
-// The uses of Neural Mesh (docs/neural-mesh.md): each shipped scene against its closed form, at every level.
+// The uses of Neural Mesh (docs/findings/trees-surfaces-snakes.md): each shipped scene against its closed
+// form, at every level.
 #include "tests/cli/cli_test.h"
 
 #include <cmath>

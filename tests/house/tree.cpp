@@ -36,7 +36,8 @@ std::string text_of(const std::string& path) {
 
 std::vector<TreeFile> tree_files(const std::vector<std::string>& endings) {
   std::vector<TreeFile> files;
-  for (const auto& entry : fs::directory_iterator(root)) take(entry, endings, files);
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().filename() != ".git") take(entry, endings, files); // a file where the tree is a worktree
   for (const char* room : {".ci", "docs", "firmware", "rtl_model", "sim", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(root / room)) take(entry, endings, files);
   std::sort(files.begin(), files.end(), [](const TreeFile& a, const TreeFile& b) { return a.path < b.path; });
