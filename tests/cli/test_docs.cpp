@@ -145,7 +145,13 @@ TEST_F(CliDocs, ExamplesOfScenesAndArraysAreGood) {
   EXPECT_EQ(fault_of_results(results_of("s.toml --array a.toml --steps 3", "r"), 3), "");
 }
 
-// In order, in one folder, as a reader types them; "exit 1" in a comment says that it ends so.
+TEST_F(CliDocs, TheExampleOfVectorsIsWhatTheProgramWrites) {
+  good("vectors two-nodes --step 3 --out two-nodes.txt");
+  EXPECT_THAT(page("use/test-vectors.md"),
+              HasSubstr("```text\n" + content_of(at("two-nodes.txt")) + "```\n"));
+}
+
+// In order, in one folder, as a reader types them; "exit 1" in a comment says that a command ends so.
 TEST_F(CliDocs, CommandsOfTheNetworksPageRun) {
   static const std::regex command("    hopmesh ([^#]*[^# ]) *(#.*)?");
   int tried = 0;
@@ -163,12 +169,12 @@ TEST_F(CliDocs, CommandsOfTheNetworksPageRun) {
 
 TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
   good("solve cut-16 --out o");
-  const std::string text = page("use/own-networks.md");
+  const std::string text = page("use/own-networks.md"), problems = page("findings/problem-set.md");
   for (const std::string& name : names_in(at("o"))) EXPECT_THAT(text, HasSubstr('`' + name + '`'));
   for (const std::string& name : read_table(at("o/solve.csv")).header)
     EXPECT_THAT(text, HasSubstr('`' + name + '`'));
   for (const std::string& line : lines_of(good("problem").out))
-    EXPECT_THAT(text, HasSubstr('`' + split(line, ' ')[0] + '`'));
+    EXPECT_THAT(problems, HasSubstr('`' + split(line, ' ')[0] + '`'));
   static const std::regex flag("(--[a-z]+)");
   const std::string help = good("solve --help").out;
   for (std::sregex_iterator at(help.begin(), help.end(), flag), end; at != end; ++at) {
