@@ -1,5 +1,5 @@
-// Pages can be found and trusted: links and anchors lead somewhere, each page says whom it is for, the index
-// knows them all, and the papers at the front door agree about the version.
+// Pages can be found and trusted: links, anchors and named files exist, each page says whom it is for, the
+// index knows them all, and the papers at the front door agree about the version.
 #include "tests/house/tree.h"
 
 #include <cctype>
@@ -58,6 +58,29 @@ TEST(Pages, linksLeadSomewhere) {
       EXPECT_TRUE(link.anchor.empty() || anchors_of(text_of(link.path)).count(link.anchor))
           << page.path << ": " << link.path << " has no heading #" << link.anchor;
     }
+}
+
+/// Whether a path, in whose last part a star may stand for anything, is in the tree.
+bool is_in_tree(const std::string& path) {
+  const fs::path whole = fs::path(HOPMESH_SOURCE_DIR) / path;
+  if (path.find('*') == std::string::npos) return fs::exists(whole);
+  const std::string shape = std::regex_replace(whole.filename().string(), std::regex("\\*"), ".*");
+  for (const auto& entry : fs::directory_iterator(whole.parent_path()))
+    if (std::regex_match(entry.path().filename().string(), std::regex(shape))) return true;
+  return false;
+}
+
+TEST(Pages, namePlacesThatExist) {
+  for (const TreeFile& page : tree_files({".md"}))
+    for (const std::string& place : matches(page.text, "`((?:firmware|rtl_model|sim|tests|docs)/[^`\\s]*)`"))
+      EXPECT_TRUE(is_in_tree(place)) << page.path << ": " << place;
+}
+
+TEST(Pages, thatCommentsAndMessagesNameExist) {
+  for (const TreeFile& file :
+       tree_files({".h", ".c", ".cpp", ".sv", ".js", ".toml", ".obj", ".txt", ".cmake"}))
+    for (const std::string& page : matches(file.text, "(docs/[\\w/-]+\\.md)"))
+      EXPECT_TRUE(is_in_tree(page)) << file.path << ": " << page;
 }
 
 TEST(Pages, sayWhomTheyAreForAndWhatTheyAnswer) {

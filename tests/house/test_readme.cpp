@@ -14,14 +14,6 @@ namespace fs = std::filesystem;
 
 // ---- flags
 
-std::vector<std::string> matches(const std::string& text, const char* pattern) {
-  const std::regex shape(pattern);
-  std::vector<std::string> found;
-  for (std::sregex_iterator at(text.begin(), text.end(), shape), end; at != end; ++at)
-    found.push_back((*at)[1]);
-  return found;
-}
-
 // README and docs/use: what a user reads and types.
 std::vector<TreeFile> pages_of_users() {
   std::vector<TreeFile> pages;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <sys/wait.h>
 
@@ -49,6 +50,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex shape(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), shape), end; at != end; ++at)
+    found.push_back((*at)[1]);
+  return found;
 }
 
 bool starts_with(const std::string& text, const std::string& start) {
