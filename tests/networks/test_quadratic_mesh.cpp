@@ -136,7 +136,8 @@ class FlagUnderWay : public ::testing::Test {
   reference::Increment about{};
 };
 
-// Counts of an older program that shared no code with this one (docs/solvers.md): from where the mesh stands.
+// Counts of an older program that shared no code with this one (docs/findings/array-against-solvers.md): from
+// where the mesh stands.
 TEST_F(FlagUnderWay, TakesAsManySweepsAsAnotherProgramTook) {
   const Problem p = from(state.position);
   EXPECT_NEAR(condition(p), 784, 1);

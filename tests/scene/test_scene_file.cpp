@@ -180,7 +180,7 @@ TEST(ShippedScenes, aNameIsNotHiddenByAFolder) {
   EXPECT_EQ(s.mesh.grid->rows, 20);
 }
 
-/// docs/theory.md, section 4 and Table I of the paper.
+/// docs/method/theory.md, section 4 and Table I of the paper.
 TEST(ShippedScenes, flagsHaveThePapersNumbers) {
   const Scene large = read_inputs("flag-400", "", {}).scene, small = read_inputs("flag-225", "", {}).scene;
   EXPECT_EQ(large.motion.time_step, 0.05);

@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: print_registers docs/registers.md\n";
+    std::cerr << "usage: print_registers docs/hardware/registers.md\n";
     return 2;
   }
   std::ostringstream page;
