@@ -2,6 +2,8 @@
 // index knows them all, and the papers at the front door agree about the version.
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <cctype>
 #include <filesystem>
 #include <gtest/gtest.h>
