@@ -2,6 +2,8 @@
 // told.
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
