@@ -1,7 +1,7 @@
 // The program: verbs, and the one place where errors become a line and an exit code.
 #include "sim/cli/options.h"
-#include "sim/record/output_file.h"
-#include "study_version.h"
+#include "sim/files/output_file.h"
+#include "version.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ std::vector<std::string> flags_of(const CLI::App& app) {
 
 std::string not_one_of(const std::string& what, const std::string& word,
                        const std::vector<std::string>& names) {
-  return scene::input_error("", 0, what, word, fmt::format("{}", fmt::join(names, ", ")),
-                            scene::nearest_name(word, names))
+  return input::input_error("", 0, what, word, fmt::format("{}", fmt::join(names, ", ")),
+                            input::nearest_name(word, names))
       .what();
 }
 
@@ -51,8 +51,8 @@ int program(int argc, char** argv) {
   CLI::App app(
       "A bit-accurate, cycle-level emulator of a neural-network machine that moves deformable meshes.",
       "hopmesh");
-  app.set_version_flag("--version", fmt::format("hopmesh {} ({}, {}, {})", study::version, study::commit,
-                                                study::build_type, study::compiler));
+  app.set_version_flag("--version", fmt::format("hopmesh {} ({}, {}, {})", run::version, run::commit,
+                                                run::build_type, run::compiler));
   app.require_subcommand(1);
   app.footer(
       "Example:\n  hopmesh run flag-400 --out out/flag-400\nhopmesh VERB --help tells more of a verb.");
@@ -77,9 +77,9 @@ int program(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
     fmt::print(stderr, "hopmesh: {} (hopmesh --help tells the usage)\n",
                one_line(usage_error(app, e.what())));
-  } catch (const scene::InputError& e) {
+  } catch (const input::InputError& e) {
     fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
-  } catch (const record::WriteError& e) {
+  } catch (const files::WriteError& e) {
     fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
   }
   return cli::bad_input;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/cosim/divergence.h"
-#include "sim/record/output_file.h"
+#include "sim/files/output_file.h"
 
 #include <fstream>
 #include <optional>
@@ -32,7 +32,7 @@ class VectorWriter {
   void write_job(const VectorCase& a_case);
   void write_answers(const ArrayJob& job, const hm_bus& bus);
 
-  record::OutputFile file_;
+  files::OutputFile file_;
 };
 
 /// One line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.

@@ -1,7 +1,7 @@
 // What became of a motion, in one word: a pure function of its rows.
 #pragma once
 
-#include "sim/study/motion.h"
+#include "sim/levels/motion.h"
 
 namespace hopmesh::study {
 
@@ -41,6 +41,6 @@ struct StabilityFacts {
   double friction = 1;
 };
 
-Stability classify(const std::vector<StepRow>& rows, const StabilityFacts& facts);
+Stability classify(const std::vector<levels::StepRow>& rows, const StabilityFacts& facts);
 
 } // namespace hopmesh::study

@@ -2,6 +2,8 @@
 // own): keys, defaults, presets, files, columns, flags.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <regex>
 #include <set>
 

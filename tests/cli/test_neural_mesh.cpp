@@ -2,6 +2,8 @@
 // form, at every level.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <cmath>
 #include <fstream>
 #include <sstream>

@@ -2,6 +2,8 @@
 // program is tried or told.
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>

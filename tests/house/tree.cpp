@@ -1,5 +1,7 @@
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -3,6 +3,8 @@
 #include "tests/support/slow_fixed.h"
 #include "tests/support/staircase.h"
 
+#include "place.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
