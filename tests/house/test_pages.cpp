@@ -4,6 +4,8 @@
 
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <cctype>
 #include <filesystem>
 #include <gtest/gtest.h>
