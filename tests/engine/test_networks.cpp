@@ -122,7 +122,7 @@ TEST(KernelStars, AsLargeAsTheirSumsAllow) {
   constexpr std::uint32_t arms = 21844;
   Edges edges;
   for (std::uint32_t k = 1; k <= arms + 1; ++k) edges.push_back({0, k});
-  spec::ArraySpec array;
+  spec::ArraySpec array = spec::descent_array();
   array.formats.bias = {16, 1, spec::Rounding::rnd, spec::Overflow::sat};
   EXPECT_EQ(why_not_fast(array, topology_of(arms + 2, 3, edges)), "rows of more than 65535 inputs");
   edges.pop_back();
