@@ -32,7 +32,7 @@ reference::State state_of(const StepState& state) {
 }
 
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
-                   reference::Output output) {
+                   spec::Output output) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
     return reference::relax(network, order, from, 0, sweeps, output).V;
   };
@@ -43,7 +43,7 @@ double alternation(const reference::Network& network, const reference::Order& or
 
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::Motion motion = reference::motion_of(scene);
-  if (array.output == spec::Output::binary) motion.output = reference::Output::binary;
+  motion.output = array.output;
   return motion;
 }
 
