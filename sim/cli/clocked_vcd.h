@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/cli/wave_request.h"
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 #include "sim/record/vcd.h"
 
 namespace hopmesh::cli {

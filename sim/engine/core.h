@@ -2,7 +2,7 @@
 // generic_core (any array) and fast_core (16-bit weights and links in wide registers).
 #pragma once
 
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 #include "sim/engine/layout.h"
 #include "sim/engine/plan.h"
 
