@@ -4,7 +4,7 @@
 
 #include "rtl_model/spec/signals.h"
 #include "sim/cli/wave_request.h"
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 #include "sim/record/vcd.h"
 
 namespace hopmesh::cli {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/relaxation.h"
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 #include "sim/engine/layout.h"
 #include "sim/engine/plan.h"
 

@@ -1,7 +1,7 @@
 #include "sim/engine/engine.h"
 
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_plan.h"
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"
 

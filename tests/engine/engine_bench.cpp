@@ -2,8 +2,8 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_core.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_core.h"
+#include "sim/engine/kernels/fast_plan.h"
 #include "tests/support/slow_fixed.h"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // The clock-stepped engine beside the SystemC array woken by clock: every register of every neuron after
 // every clock; and at the end of a run the engine's.
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>

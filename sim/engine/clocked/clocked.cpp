@@ -1,4 +1,4 @@
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"

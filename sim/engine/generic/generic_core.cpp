@@ -2,8 +2,8 @@
 // can hold, 128 where a format asks for them.
 #include "sim/engine/aligned.h"
 #include "sim/engine/core.h"
-#include "sim/engine/drive_path.h"
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/drive_path.h"
+#include "sim/engine/generic/lanes.h"
 #include "sim/engine/rounding.h"
 
 #include <cstdlib>

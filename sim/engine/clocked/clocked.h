@@ -2,7 +2,7 @@
 // hardware has it. docs/engine.md, "Clock by clock".
 #pragma once
 
-#include "sim/engine/clocked_beats.h"
+#include "sim/engine/clocked/clocked_beats.h"
 #include "sim/engine/engine.h"
 
 namespace hopmesh::engine {
