@@ -87,8 +87,8 @@ inline ArraySpec guarded_array() {
   return {};
 }
 
-/// `descent`: exact sums, state = link, all rounding toward zero: the energy can only fall (docs/theory.md,
-/// section 3).
+/// `descent`: exact sums, state = link, all rounding toward zero: the energy can only fall
+/// (docs/method/theory.md, section 3).
 inline ArraySpec descent_array() {
   ArraySpec a;
   a.name = "descent";

@@ -12,7 +12,7 @@
 namespace hopmesh::spec {
 
 /// What becomes of a value between two codes, in SystemC's order (sc_q_mode, IEEE 1666 7.10.9.1).
-/// docs/formats.md draws each mode as a staircase.
+/// docs/hardware/number-formats.md draws each mode as a staircase.
 enum class Rounding : std::uint8_t {
   rnd,         ///< to the nearest code; a tie goes up
   rnd_zero,    ///< to the nearest code; a tie goes toward zero

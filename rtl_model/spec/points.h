@@ -1,5 +1,5 @@
 // Where the binary points of an array's signals lie, and by how many places each step of a neuron moves them
-// (docs/datapath.md). Statements about formats: nobody's codes are computed here.
+// (docs/hardware/datapath.md). Statements about formats: nobody's codes are computed here.
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
