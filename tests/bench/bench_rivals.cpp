@@ -3,7 +3,7 @@
 // processor time.
 #include "sim/rivals/method.h"
 #include "sim/rivals/truth.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double yardstick_tolerance = 1e-8;
 /// 1 m x 1 m and 1 kg of cloth, k = 100 N/m, blown across at 15 and 5 m/s and pulled down along its pinned
 /// edge.
 const Physics& flag() {
-  static const Physics physics(rivals::testing::sheet(20, 50), {{3, 1, -9.81}, 0.2});
+  static const Physics physics(tests::sheet(20, 50), {{3, 1, -9.81}, 0.2});
   return physics;
 }
 

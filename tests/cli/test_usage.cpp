@@ -1,6 +1,6 @@
 // Every mistake in a command: exit 2, nothing on stdout, one line on stderr that says what was found and what
 // was expected, and no file left.
-#include "tests/cli/cli_test.h"
+#include "tests/support/cli_test.h"
 
 namespace hopmesh::tests {
 namespace {

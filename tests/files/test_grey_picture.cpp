@@ -4,8 +4,10 @@
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -56,4 +58,4 @@ TEST(GreyPicture, SaysWhatIsNone) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

@@ -1,7 +1,7 @@
 // Matrix Market files: the same bits back, what other programs write, and broken files told in a line.
 #include "sim/files/matrix_market.h"
 #include "sim/input/input_error.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <cstring>
@@ -9,8 +9,10 @@
 #include <limits>
 #include <random>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using testing::HasSubstr;
 
@@ -47,7 +49,7 @@ class MatrixMarket : public testing::Test {
     return "read";
   }
 
-  tests::Folder folder_;
+  Folder folder_;
 };
 
 /// Any bits that are a finite double.
@@ -201,4 +203,4 @@ TEST_F(MatrixMarket, BrokenFilesAreReadWholeOrRefusedInOneLine) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -239,4 +241,4 @@ TEST(ReferenceGuarantees, AnyOrderBringsANeuralMeshToTheSolutionOfItsLinearSyste
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 Eigen::Vector3d at(const Vector& all, std::size_t node) {
   return all.segment<3>(3 * node);
@@ -217,4 +219,4 @@ TEST(ReferenceMotion, ANodeWithoutDirectionGetsNoKick) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 /// A step about to be expanded.
 struct Case {
@@ -285,4 +287,4 @@ TEST(ReferenceNetwork, TheModelOfANodeWithoutDirectionTouchesTheEnergyAndLiesNow
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

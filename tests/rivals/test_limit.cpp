@@ -1,12 +1,14 @@
 // Where explicit methods blow up: the largest frequency of the mesh says it.
 #include "sim/scene/frequency.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace rivals;
 
 /// Nearly at rest, disturbed a little everywhere: does the disturbance stay small?
 bool holds(const std::string& name, const Physics& physics, double time_step) {
@@ -66,4 +68,4 @@ TEST(RivalsLimit, WhoDivergesSaysSoInASentence) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::tests

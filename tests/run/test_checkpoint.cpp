@@ -1,6 +1,6 @@
 // A checkpoint keeps every bit, and none of its bytes can change unseen.
 #include "sim/run/checkpoint.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <cstring>

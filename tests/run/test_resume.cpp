@@ -3,7 +3,7 @@
 #include "sim/levels/reference_motion.h"
 #include "sim/run/checkpointer.h"
 #include "sim/run/step_table.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 /// 40 steps of a swing: total energy 1, ten sweeps, at rest after each.
 std::vector<levels::StepRow> swing() {
@@ -72,4 +74,4 @@ TEST(StabilityClass, OverDampedDiesFasterThanFrictionExplains) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests

@@ -4,8 +4,10 @@
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 const std::string start = "scene = \"two-nodes\"\n";
 
@@ -86,4 +88,4 @@ TEST(StudyFile, EveryShippedStudyIsRead) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests
