@@ -1,5 +1,5 @@
 // Backward Euler and BDF2, each step solved by Newton's method; drag implicit in both.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 #include "sim/rivals/newton.h"
 
 namespace hopmesh::rivals {

@@ -1,7 +1,7 @@
 // The rivals' cost for a second of the flag of 400 nodes in table 3 of the measured anchors, beside SUNDIALS
 // in the same process: what is compared across machines is the ratio to it, not the time. One thread,
 // processor time.
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 #include "sim/rivals/truth.h"
 #include "tests/rivals/rival_meshes.h"
 

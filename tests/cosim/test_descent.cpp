@@ -13,15 +13,6 @@ namespace {
 __extension__ typedef __int128 Wide;
 using Codes = std::vector<std::int32_t>;
 
-/// Word of the weight of neuron `to` (cell, p) from neuron `from`; the cells are equal or linked.
-std::size_t weight_word(const spec::Topology& t, std::size_t to, std::size_t p, std::size_t from,
-                        std::size_t q) {
-  std::size_t block = 0;
-  for (std::size_t k = t.first_link[to]; from != to && k < t.first_link[to + 1]; ++k)
-    if (t.link_to[k] == from) block = 1 + k - t.first_link[to];
-  return t.row_offset(to, p) + block * t.neurons_per_cell + q;
-}
-
 /// Calls visit(cell, p, other, q) for every weight there is.
 template <typename Visit> void for_each_weight(const spec::Topology& t, Visit visit) {
   const std::size_t n = t.neurons_per_cell;

@@ -19,8 +19,8 @@ TEST(Csv, TableLooksAsExpected) {
   file.cell(std::uint64_t{18446744073709551615u}).cell(1e-300).cell(false).cell("a, \"b\"").end_row();
   file.commit();
   EXPECT_EQ(content_of(folder / "a.csv"), "step,time,converged,note\n"
-                                                 "1,0.1,1,plain\n"
-                                                 "18446744073709551615,1e-300,0,\"a, \"\"b\"\"\"\n");
+                                          "1,0.1,1,plain\n"
+                                          "18446744073709551615,1e-300,0,\"a, \"\"b\"\"\"\n");
 }
 
 TEST(Csv, DoublesRoundTrip) {

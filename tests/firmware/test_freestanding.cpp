@@ -16,7 +16,8 @@ namespace {
 /// Lines of `nm ARGUMENTS` on the firmware's archive, as (type, symbol).
 std::set<std::pair<std::string, std::string>> symbols(const std::string& arguments) {
   std::set<std::pair<std::string, std::string>> found;
-  for (const std::string& line : lines_of(run_shell("nm -P " + arguments + " " HOPMESH_FIRMWARE_LIBRARY).out)) {
+  for (const std::string& line :
+       lines_of(run_shell("nm -P " + arguments + " " HOPMESH_FIRMWARE_LIBRARY).out)) {
     std::istringstream words(line);
     std::string symbol, type;
     if (words >> symbol >> type && type.size() == 1) found.insert({type, symbol});

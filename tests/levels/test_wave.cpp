@@ -30,7 +30,8 @@ TEST_P(WaveFile, OfSomeCellsHoldsOnlyThose) {
 
 TEST_P(WaveFile, EndsWithTheOutputsOfTheRun) {
   const Vcd vcd = wave(nine + " --steps 3");
-  const auto codes = read_array(at("r/outputs_raw.npy")).values; // of nine nodes a step, of which node 0 is pinned
+  const auto codes =
+      read_array(at("r/outputs_raw.npy")).values; // of nine nodes a step, of which node 0 is pinned
   const auto* last = codes.data() + codes.size() - 9 * 3;
   std::size_t moved = 0;
   for (std::size_t k = 0; k < 8 * 3; ++k) {

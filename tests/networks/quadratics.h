@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/networks/solvers/race.h"
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
 #include "tests/reference/random_inputs.h"
 
 #include <Eigen/Dense>
@@ -11,7 +11,8 @@
 namespace hopmesh::tests {
 
 /// Its neurons stand for two components in turn.
-inline solvers::Problem problem_of(const Eigen::MatrixXd& W, const solvers::Vector& I, const solvers::Vector& start) {
+inline solvers::Problem problem_of(const Eigen::MatrixXd& W, const solvers::Vector& I,
+                                   const solvers::Vector& start) {
   const solvers::Weights sparse = W.sparseView();
   std::vector<std::uint32_t> component;
   for (Eigen::Index i = 0; i < I.size(); ++i) component.push_back(i % 2);
@@ -65,7 +66,8 @@ inline solvers::Vector answer_by_faces(const solvers::Problem& p) {
 }
 
 /// After so many sweeps.
-inline solvers::Vector after(const std::string& name, const solvers::Problem& problem, int sweeps, bool convex = true) {
+inline solvers::Vector after(const std::string& name, const solvers::Problem& problem, int sweeps,
+                             bool convex = true) {
   const auto solver = solvers::make_solver(name, problem, convex);
   for (int k = 0; k < sweeps; ++k) solver->sweep();
   return solver->V();

@@ -29,8 +29,8 @@ inline WideVector widened(const reference::Vector& v) {
 }
 
 /// Where node `n` is in space once its outputs have acted for a step: C + h V.
-inline std::array<Wide, 3> place(const scene::Mesh& mesh, Wide h, const reference::Vector& C, const WideVector& V,
-                                 std::size_t n) {
+inline std::array<Wide, 3> place(const scene::Mesh& mesh, Wide h, const reference::Vector& C,
+                                 const WideVector& V, std::size_t n) {
   std::array<Wide, 3> at = {C[3 * n], C[3 * n + 1], C[3 * n + 2]};
   if (mesh.planar) {
     at[0] += h * V[2 * n];

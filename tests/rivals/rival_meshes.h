@@ -1,7 +1,7 @@
 // Meshes that the tests of rivals fly.
 #pragma once
 
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 
 namespace hopmesh::tests {
 

@@ -1,6 +1,6 @@
 // Two methods of SUNDIALS that share only the equation of motion, and a closed form.
-#include "sim/rivals/truth.h"
 #include "sim/input/input_error.h"
+#include "sim/rivals/truth.h"
 #include "tests/rivals/rival_meshes.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Folders of bad files, by what is wrong with them: each is refused in one line that names the place and the mistake, at once.
+// Folders of bad files, by what is wrong with them: each is refused in one line that names the place and the
+// mistake, at once.
 #include "sim/input/array_file.h"
 #include "tests/scene/scene_makers.h"
 

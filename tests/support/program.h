@@ -1,5 +1,5 @@
-// Runs the built program, or a command of the shell, as a child process: what it says, how it ends, how long it
-// takes.
+// Runs the built program, or a command of the shell, as a child process: what it says, how it ends, how long
+// it takes.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,8 @@ struct Surroundings {
   std::vector<std::pair<std::string, std::string>> environment;
   bool terminal = false;        ///< stderr is a pseudo-terminal of 100 columns
   std::size_t largest_file = 0; ///< bytes a file may grow to (a write beyond fails); 0: no limit
-  std::string program;       ///< empty: the built one
-  int patience_seconds = 60; ///< how long it may be silent
+  std::string program;          ///< empty: the built one
+  int patience_seconds = 60;    ///< how long it may be silent
 };
 
 class Program {

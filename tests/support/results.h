@@ -1,4 +1,5 @@
-// Reads what the program writes, with code of its own: NumPy arrays, tables, JSON, Matrix Market, results folders.
+// Reads what the program writes, with code of its own: NumPy arrays, tables, JSON, Matrix Market, results
+// folders.
 #pragma once
 
 #include "tests/support/files.h"

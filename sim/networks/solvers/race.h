@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/networks/solvers/answer.h"
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
 
 #include <atomic>
 #include <functional>

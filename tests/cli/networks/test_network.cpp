@@ -1,6 +1,6 @@
 // hopmesh network: the files' form, and that they say what the mathematics says.
-#include "tests/support/cli_test.h"
 #include "tests/cli/networks/network_by_hand.h"
+#include "tests/support/cli_test.h"
 
 #include <algorithm>
 

@@ -22,8 +22,9 @@ class CliSlurm : public Cli {
 
   Finished start() const {
     const int port = 20'000 + 2 * (getpid() % 20'000);
-    return run_shell("timeout 60 sh " HOPMESH_SOURCE_DIR "/tests/cli/studies/slurm_cluster '" + at("slurm").string() +
-                     "' " + std::to_string(port) + " > '" + at("why").string() + "' 2>&1");
+    return run_shell("timeout 60 sh " HOPMESH_SOURCE_DIR "/tests/cli/studies/slurm_cluster '" +
+                     at("slurm").string() + "' " + std::to_string(port) + " > '" + at("why").string() +
+                     "' 2>&1");
   }
 };
 

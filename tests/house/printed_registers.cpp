@@ -1,4 +1,4 @@
-#include "tests/house/register_tables.h"
+#include "tests/house/printed_registers.h"
 
 #include "firmware/registers.h"
 

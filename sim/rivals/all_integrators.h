@@ -1,7 +1,7 @@
 // What make_method chooses from; nobody outside this room needs it.
 #pragma once
 
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 
 namespace hopmesh::rivals {
 

@@ -1,7 +1,7 @@
 // Every solver's own door: what solver.cpp puts names to. All but the first take convex problems only.
 #pragma once
 
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
 
 namespace hopmesh::solvers {
 

@@ -1,5 +1,5 @@
 // Names, and what each stands for.
-#include "sim/networks/solvers/solvers.h"
+#include "sim/networks/solvers/all_solvers.h"
 
 #include <algorithm>
 #include <functional>

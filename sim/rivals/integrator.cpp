@@ -1,5 +1,5 @@
 // Choosing a rival by name, and what all of them share.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 
 #include "sim/input/input_error.h"
 
