@@ -5,7 +5,7 @@
 namespace hopmesh::rivals {
 namespace {
 
-/// Both rules read x = past_x + b v, v = past_v + b (F(x) / m + force - c v); they differ in the past and in
+/// Each rule reads x = past_x + b v, v = past_v + b (F(x) / m + force - c v); they differ in the past and in
 /// b.
 class ImplicitRule : public Method {
  public:

@@ -1,5 +1,5 @@
 // The rivals' cost for a second of the flag of 400 nodes in table 3 of the measured anchors, beside SUNDIALS
-// in the same process: what is compared across machines is the ratio to it, not the time. One thread,
+// in the same process: what is compared across machines is the ratio to it, not the time. A single thread,
 // processor time.
 #include "sim/rivals/integrator.h"
 #include "sim/rivals/truth.h"
@@ -62,7 +62,7 @@ void sundials(benchmark::State& state) {
   counted(state, steps, passes);
 }
 
-/// One instruction set's loops.
+/// The loops of an instruction set.
 void force_pass(benchmark::State& state, const rivals::ForceKernel& kernel) {
   const rivals::Vector position = flag().initial_state().position;
   const rivals::ForcePass pass(static_cast<std::size_t>(flag().nodes()), flag().springs(), kernel);

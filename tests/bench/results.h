@@ -6,7 +6,7 @@
 
 namespace hopmesh::bench {
 
-/// One benchmark's repetitions of one quantity.
+/// A benchmark's repetitions of one quantity.
 struct Samples {
   std::vector<double> values;
   double median() const;

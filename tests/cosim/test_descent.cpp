@@ -171,7 +171,7 @@ TEST(CosimDescent, ABinaryNeuronThatHoldsItselfBackFlipsForEverAlone) {
   }
 }
 
-/// The same two neurons as below, with binary outputs and a cell each.
+/// The two neurons of the next test, with binary outputs and a cell each.
 TEST(CosimDescent, AllAtOnceTwoBinaryNeuronsFlipForEver) {
   const spec::Topology pair = topology_of(2, 1, {{0, 1}});
   spec::ArraySpec together = spec::descent_array(), in_turn = together;

@@ -154,7 +154,7 @@ TEST_F(MatrixMarket, EveryMistakeIsToldWithItsLine) {
               HasSubstr("found 1 x 2, expected a vector: one column"));
 }
 
-/// One byte changed, left out or put in, a line doubled, or the end cut off.
+/// A byte changed, left out or put in, a line doubled, or the end cut off.
 std::string spoilt(std::string text, std::mt19937_64& dice) {
   const std::size_t at = dice() % text.size();
   const std::string bytes = std::string("0123456789+-.eE %\n\r\tx") + '\0' + '\xff';

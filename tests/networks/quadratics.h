@@ -1,8 +1,8 @@
 // Small boxed quadratics for the tests of solvers, and slow, obvious answers to them.
 #pragma once
 
-#include "sim/networks/solvers/race.h"
 #include "sim/networks/solvers/network_solver.h"
+#include "sim/networks/solvers/race.h"
 #include "tests/reference/random_inputs.h"
 
 #include <Eigen/Dense>
@@ -19,7 +19,7 @@ inline solvers::Problem problem_of(const Eigen::MatrixXd& W, const solvers::Vect
   return {sparse, I, start, coloured(sparse), component};
 }
 
-/// One of random signs and curvatures, and a start anywhere.
+/// A problem of random signs and curvatures, and a start anywhere.
 inline solvers::Problem random_problem(Random& random, Eigen::Index n) {
   const auto network = random_network(random, n);
   return solvers::reached(problem_of(network.W, network.I, random_point(random, n)));

@@ -27,7 +27,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// One pinned node, one that comes down from 1 beside it to 4 under it.
+/// A pinned node, and one that comes down from 1 beside it to 4 under it.
 RunView pendulum() {
   RunView view;
   view.title = "a < b";

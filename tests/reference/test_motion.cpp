@@ -1,4 +1,4 @@
-// One step of the probe formulation, formula by formula: docs/method/theory.md, section 4.
+// A step of the probe formulation, formula by formula: docs/method/theory.md, section 4.
 #include "sim/reference/reference.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/plain_energy.h"

@@ -86,7 +86,7 @@ TEST(RivalsRecurrence, Bdf2) {
   });
 }
 
-// One constraint is met exactly by one sweep: XPBD is backward Euler here, of each substep.
+// A single constraint is met exactly by one sweep: XPBD is backward Euler here, of each substep.
 TEST(RivalsRecurrence, Xpbd) {
   Options options;
   options.substeps = 4;

@@ -1,4 +1,4 @@
-// One run made by hand for each class, and each border from both sides.
+// A run made by hand for each class, and each border from both sides.
 #include "sim/study/stability_class.h"
 
 #include <gtest/gtest.h>

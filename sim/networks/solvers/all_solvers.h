@@ -1,4 +1,5 @@
-// Every solver's own door: what solver.cpp puts names to. All but the first take convex problems only.
+// Every solver's own door: what network_solver.cpp puts names to. All but the first take convex problems
+// only.
 #pragma once
 
 #include "sim/networks/solvers/network_solver.h"
@@ -17,7 +18,7 @@ std::unique_ptr<Solver> make_accelerated_gradient(const Problem& problem);
 std::unique_ptr<Solver> make_conjugate_gradient(const Problem& problem);
 /// Splitting into a linear solve and a clamp; rho = rho_share times the largest eigenvalue of -W.
 std::unique_ptr<Solver> make_admm(const Problem& problem, double rho_share);
-/// One solve without the box.
+/// A single solve without the box.
 std::unique_ptr<Solver> make_cholesky(const Problem& problem);
 /// A gradient step finds the bounds, a sparse solve answers for the outputs between them.
 std::unique_ptr<Solver> make_projected_newton(const Problem& problem);

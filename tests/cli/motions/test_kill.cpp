@@ -44,7 +44,7 @@ class CliKill : public CliResume {
     return program.finish();
   }
 
-  /// One run from its first step to its last, broken off as often as it takes.
+  /// A run from its first step to its last, broken off as often as it takes.
   void live(const std::string& scene, const fs::path& unbroken, double usual_seconds) {
     ++lives;
     const std::string fresh = "run " + scene + " --out r --checkpoint-every " + std::to_string(1 + below(9));

@@ -113,7 +113,7 @@ class CliResumeRefusal : public CliResume {
  protected:
   void SetUp() override { ended("run " + row + " --steps 60000 --out r --checkpoint-every 2", 6, SIGKILL); }
 
-  /// One line, exit 2, and not a byte of the folder changed.
+  /// A line, exit 2, and not a byte of the folder changed.
   void expect_refused(const std::string& line, const std::string& says) const {
     const auto before = folder_content();
     const Finished f = hopmesh(line);

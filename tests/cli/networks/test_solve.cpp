@@ -167,7 +167,7 @@ TEST_F(CliSolve, EnergyFallsInColouredAndSequentialOrder) {
         }
 }
 
-// W_ii < 0 breaks the binary neuron's proof: it may turn for ever. One neuron, W = -1: s = -V.
+// W_ii < 0 breaks the binary neuron's proof: it may turn for ever. A single neuron, W = -1: s = -V.
 TEST_F(CliSolve, ABinaryNeuronThatPushesItselfAwayTurnsForEver) {
   write_matrix("W.mtx", {{-1}});
   const Finished f = hopmesh("solve W.mtx --rule binary --sweeps 10");
@@ -195,8 +195,8 @@ TEST_F(CliSolve, TwoNeuronsAtOnceFlipForEver) {
     }
 }
 
-// One neuron, W = d < 0, I = b > 0, from below: V moves by (1 - V) (b + d V) / (|d| + b), so near the rest
-// V* = -b / d its error shrinks by q = 1 - (1 - V*) |d| / (|d| + b) a sweep.
+// A single neuron, W = d < 0, I = b > 0, from below: V moves by (1 - V) (b + d V) / (|d| + b), so near the
+// rest V* = -b / d its error shrinks by q = 1 - (1 - V*) |d| / (|d| + b) a sweep.
 TEST_F(CliSolve, TheDiagonalSetsTheSpeed) {
   for (const double d : {-1.0, -4.0, -64.0}) {
     write_matrix("W.mtx", {{d}});

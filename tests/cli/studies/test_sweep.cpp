@@ -144,7 +144,8 @@ TEST_F(CliSweep, MistakesAreToldByLineBeforeAnythingRuns) {
   refused("methods = [\"engin\"]\n", "mean engine?");
 }
 
-// Both are implicit Euler, one by the array: next to each other, and off the truth by what the step costs.
+// Two methods are implicit Euler, one by the array: next to each other, and off the truth by what the step
+// costs.
 TEST_F(CliSweep, RivalsAndTheTruthStandBesideTheArray) {
   write_text(at("s.toml"),
              "scene = \"banner\"\nmethods = [\"engine\", \"backward_euler\", \"velocity_verlet\"]\n"
