@@ -89,9 +89,7 @@ TEST_P(WaveTimes, OutputsChangeOnEdgesOnly) {
 
 TEST_P(WaveTimes, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
   for (const char* bad : {"3-1", "0-999999999"}) {
-    const Finished f = run(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad);
-    EXPECT_EQ(f.exit_code, 2) << bad;
-    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
+    refused(line(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad));
   }
 }
 

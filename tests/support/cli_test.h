@@ -26,6 +26,18 @@ class Cli : public ::testing::Test {
     return f;
   }
 
+  /// A line that may not work: exit 2, silence on stdout, and on stderr a short line that says why; returns
+  /// it.
+  std::string refused(const std::string& line, const std::string& says = "") const {
+    const Finished f = hopmesh(line);
+    EXPECT_EQ(f.exit_code, 2) << line;
+    EXPECT_EQ(f.out, "") << line;
+    EXPECT_EQ(lines_of(f.err).size(), 1u) << line << '\n' << f.err;
+    EXPECT_LT(f.err.size(), 600u) << f.err;
+    EXPECT_THAT(f.err, ::testing::HasSubstr(says)) << line;
+    return f.err;
+  }
+
   /// A run into `out`; returns the folder.
   std::filesystem::path results_of(const std::string& line, const std::string& out) const {
     good("run " + line + " --out " + out);

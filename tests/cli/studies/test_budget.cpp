@@ -102,17 +102,11 @@ TEST_F(CliBudget, ADivergedMotionIsTold) {
 }
 
 TEST_F(CliBudget, RefusesInOneLine) {
-  const auto refused = [this](const std::string& line, const std::string& words) {
-    const Finished f = hopmesh("budget " + line);
-    EXPECT_EQ(f.exit_code, 2) << line;
-    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
-    EXPECT_THAT(f.err, HasSubstr(words));
-  };
-  refused("two-node", "did you mean two-nodes?");
-  refused("two-nodes --time 0", "found 0, expected a number above 0");
-  refused("two-nodes --time 1e-9", "--time: found 1e-09, expected from one step of 0.05 s");
-  refused("two-nodes --time 1 --steps 3", "--time");
-  refused("two-nodes --set motion.friction=0", "motion.friction");
+  refused("budget two-node", "did you mean two-nodes?");
+  refused("budget two-nodes --time 0", "found 0, expected a number above 0");
+  refused("budget two-nodes --time 1e-9", "--time: found 1e-09, expected from one step of 0.05 s");
+  refused("budget two-nodes --time 1 --steps 3", "--time");
+  refused("budget two-nodes --set motion.friction=0", "motion.friction");
   EXPECT_FALSE(std::filesystem::exists(at("out")));
 }
 

@@ -152,24 +152,18 @@ TEST_F(CliSize, GoesOnAfterKills) {
 }
 
 TEST_F(CliSize, RefusesInOneLine) {
-  const auto refused = [this](const std::string& line, const std::string& words) {
-    const Finished f = hopmesh("size " + line);
-    EXPECT_EQ(f.exit_code, 2) << line;
-    EXPECT_EQ(lines_of(f.err).size(), 1u) << f.err;
-    EXPECT_THAT(f.err, HasSubstr(words));
-  };
-  refused("two-nodes", "--error");
-  refused("two-nodes --error 0", "found 0, expected a number above 0");
-  refused("two-nodes --error -1", "expected a number above 0");
-  refused("two-nodes --error nan", "expected a number above 0");
-  refused("two-node --error 1", "did you mean two-nodes?");
-  refused("two-nodes --error 1 --against thruth", "--against");
-  refused("two-nodes --error 1 --time-per-step 0", "found 0, expected a number above 0");
-  refused("two-nodes --error 1 --set 'formats.accumulator=fixed<40,12,SC_TRN,SC_SAT>'",
+  refused("size two-nodes", "--error");
+  refused("size two-nodes --error 0", "found 0, expected a number above 0");
+  refused("size two-nodes --error -1", "expected a number above 0");
+  refused("size two-nodes --error nan", "expected a number above 0");
+  refused("size two-node --error 1", "did you mean two-nodes?");
+  refused("size two-nodes --error 1 --against thruth", "--against");
+  refused("size two-nodes --error 1 --time-per-step 0", "found 0, expected a number above 0");
+  refused("size two-nodes --error 1 --set 'formats.accumulator=fixed<40,12,SC_TRN,SC_SAT>'",
           "formats.accumulator: found fixed<40,12,SC_TRN,SC_SAT>, expected \"exact\"");
   EXPECT_FALSE(std::filesystem::exists(at("out")));
   good("size two-nodes --steps 5 --error 1e-2 --out s");
-  refused("two-nodes --steps 6 --error 1e-2 --out s", "trials of another scene, array or length");
+  refused("size two-nodes --steps 6 --error 1e-2 --out s", "trials of another scene, array or length");
 }
 
 } // namespace
