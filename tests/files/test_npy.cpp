@@ -1,5 +1,6 @@
 // NumPy files, against bytes laid down by hand from the format's description.
 #include "sim/files/npy.h"
+#include "tests/support/complaint.h"
 #include "tests/support/files.h"
 
 #include <cmath>
@@ -77,12 +78,7 @@ TEST(Npy, RowOfWrongLengthIsRefused) {
 }
 
 std::string read_error(const std::filesystem::path& path) {
-  try {
-    read_npy<double>(path);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "no error";
+  return complaint<ReadError>([&] { read_npy<double>(path); });
 }
 
 TEST(Npy, OtherFilesAreRefusedByName) {

@@ -1,5 +1,6 @@
 // Whatever goes wrong, under the final name stands a whole file or none.
 #include "sim/files/output_file.h"
+#include "tests/support/complaint.h"
 #include "tests/support/files.h"
 
 #include <csignal>
@@ -18,13 +19,9 @@ using testing::HasSubstr;
 
 /// The message of the WriteError that the work ends in; it must be one line.
 std::string error_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const WriteError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "no error";
+  const std::string error = complaint<WriteError>(work);
+  EXPECT_EQ(error.find('\n'), std::string::npos);
+  return error;
 }
 
 /// Runs the work in a process of its own, whose limits and rights it may change; its exit status.

@@ -16,10 +16,6 @@ using namespace files;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 class StreamRestTest : public testing::Test {
  protected:
   /// A stream "head, body", safe up to there, then `more` that nobody marked.

@@ -3,6 +3,7 @@
 
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
+#include "tests/support/complaint.h"
 #include "tests/support/files.h"
 
 #include "place.h"
@@ -36,16 +37,6 @@ inline scene::Scene file_scene(const std::string& path) {
 inline scene::Mesh mesh_of_obj(const std::string& text) {
   const Folder temp;
   return scene::build_mesh(file_scene(temp.write("mesh.obj", text)));
-}
-
-/// What the action's InputError says; "" if it throws none.
-template <typename Action> std::string complaint(Action action) {
-  try {
-    action();
-  } catch (const input::InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 } // namespace hopmesh::tests

@@ -1,4 +1,4 @@
-#include "tests/bench/problem_runs.h"
+#include "tests/bench/tables/problem_runs.h"
 
 #include <cstdlib>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The engine's figures against what was asked of it, and the roofline as a picture: from the files of
 // bench_rtl and bench_engine.
-#include "tests/bench/results.h"
+#include "tests/bench/tables/bench_results.h"
 
 #include <algorithm>
 #include <cmath>

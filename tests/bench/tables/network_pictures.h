@@ -1,7 +1,7 @@
 // The pictures of docs/findings/problem-set.md, made by the program's own results.
 #pragma once
 
-#include "tests/bench/problem_runs.h"
+#include "tests/bench/tables/problem_runs.h"
 
 namespace hopmesh::bench {
 

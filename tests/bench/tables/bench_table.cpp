@@ -1,7 +1,7 @@
 // Reads what the benchmarks wrote and prints what it means: figures, then requirement | measured | met?
 // With a fourth argument it draws the speeds as well. Exit code 1 where levels gave different bits or cycles,
 // or a benchmark failed; never for a time.
-#include "tests/bench/results.h"
+#include "tests/bench/tables/bench_results.h"
 
 #include <algorithm>
 #include <cmath>

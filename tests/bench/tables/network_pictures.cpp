@@ -1,4 +1,4 @@
-#include "tests/bench/network_pictures.h"
+#include "tests/bench/tables/network_pictures.h"
 
 #include "sim/networks/problems/making.h"
 #include "sim/pictures/crest/crest.h"

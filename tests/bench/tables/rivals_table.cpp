@@ -1,6 +1,6 @@
 // The rivals' figures against the measured anchors, from the file of bench_rivals
 // (docs/findings/array-against-integrators.md, Speed).
-#include "tests/bench/results.h"
+#include "tests/bench/tables/bench_results.h"
 
 #include <fmt/format.h>
 

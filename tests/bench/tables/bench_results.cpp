@@ -1,4 +1,4 @@
-#include "tests/bench/results.h"
+#include "tests/bench/tables/bench_results.h"
 
 #include <algorithm>
 #include <fstream>
