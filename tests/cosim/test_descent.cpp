@@ -1,7 +1,7 @@
 // The array `descent` in SystemC: in exact integer arithmetic, the network's energy falls or stays in every
 // sweep, whatever the symmetric network. And the one order in which nothing is promised: all at once.
 #include "rtl_model/spec/array_rules.h"
-#include "tests/support/dut.h"
+#include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 
 #include <gtest/gtest.h>
@@ -74,12 +74,6 @@ ArrayJob descending_job(std::uint64_t seed) {
     V = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(V, -array.formats.state.one_raw(), array.formats.state.one_raw()));
   return job;
-}
-
-void load(Dut& dut, const ArrayJob& job) {
-  ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
 }
 
 /// A device for each job: all are built before the first one runs.

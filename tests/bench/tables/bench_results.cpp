@@ -1,6 +1,7 @@
 #include "tests/bench/tables/bench_results.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -60,6 +61,19 @@ Samples Results::samples(const std::string& name, const std::string& counter) co
     if (row.name == name && row.counter == counter) samples.values.push_back(row.value);
   if (samples.values.empty()) throw std::runtime_error("no " + counter + " of benchmark " + name);
   return samples;
+}
+
+int print_tables(int argc, char** argv, int files, const char* usage,
+                 void (*print)(const Results& results, const std::string& picture_file)) try {
+  if (argc <= files) return fmt::print(stderr, "usage: {}\n", usage), 2;
+  Results results;
+  for (int k = 1; k <= files; ++k) results.read(argv[k]);
+  if (results.errors().empty()) print(results, argc > files + 1 ? argv[files + 1] : "");
+  for (const std::string& error : results.errors()) fmt::print(stderr, "bench: {}\n", error);
+  return results.errors().empty() ? 0 : 1;
+} catch (const std::exception& e) {
+  fmt::print(stderr, "bench: {}\n", e.what());
+  return 1;
 }
 
 } // namespace hopmesh::bench

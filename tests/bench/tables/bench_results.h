@@ -38,4 +38,9 @@ class Results {
   std::vector<std::string> errors_;
 };
 
+/// The main of a program that prints tables: reads `files` files and calls print with them and the name of
+/// the picture that may follow, empty where none does.
+int print_tables(int argc, char** argv, int files, const char* usage,
+                 void (*print)(const Results& results, const std::string& picture_file));
+
 } // namespace hopmesh::bench

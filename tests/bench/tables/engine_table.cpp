@@ -164,32 +164,19 @@ std::string picture(const Results& r) {
   return svg + "</svg>\n";
 }
 
-int print_all(const Results& r, const std::string& picture_file) {
+void print_all(const Results& r, const std::string& picture_file) {
   fmt::print("\n  {:<64} | {:>10} | {:>9} | met?\n", "engine", "asked", "measured");
   print_ratios(r);
   print_flatness(r);
   print_shares(r);
   print_curve(r);
   if (!picture_file.empty()) std::ofstream(picture_file) << picture(r);
-  for (const auto& error : r.errors()) fmt::print(stderr, "bench: {}\n", error);
-  return r.errors().empty() ? 0 : 1;
 }
 
 } // namespace
 } // namespace hopmesh::bench
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: engine_table RTL.json ENGINE.json [ROOFLINE.svg]\n");
-    return 2;
-  }
-  try {
-    hopmesh::bench::Results results;
-    results.read(argv[1]);
-    results.read(argv[2]);
-    return hopmesh::bench::print_all(results, argc > 3 ? argv[3] : "");
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "bench: {}\n", e.what());
-    return 1;
-  }
+  return hopmesh::bench::print_tables(argc, argv, 2, "engine_table RTL.json ENGINE.json [ROOFLINE.svg]",
+                                      hopmesh::bench::print_all);
 }

@@ -1,22 +1,16 @@
 #include "tests/bench/tables/problem_runs.h"
 
+#include "tests/support/files.h"
+
 #include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <sys/wait.h>
 
 namespace hopmesh::bench {
-namespace {
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-} // namespace
+using tests::content_of;
 
 int ProblemRuns::run(const std::string& words) const {
   const int status = std::system(fmt::format("'{}' {} > /dev/null", program_, words).c_str());

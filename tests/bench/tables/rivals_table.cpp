@@ -62,27 +62,14 @@ void print_units(const Results& r) {
   fmt::print("  {:<36} | {:>9} | {:>9.3g} |\n", "a force pass of 1,482 springs", "", pass * 1e6);
 }
 
-int print_all(const Results& r) {
+void print_all(const Results& r, const std::string&) {
   print_ratios(r);
   print_units(r);
-  for (const auto& error : r.errors()) fmt::print(stderr, "bench: {}\n", error);
-  return r.errors().empty() ? 0 : 1;
 }
 
 } // namespace
 } // namespace hopmesh::bench
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: rivals_table RIVALS.json\n");
-    return 2;
-  }
-  try {
-    hopmesh::bench::Results results;
-    results.read(argv[1]);
-    return hopmesh::bench::print_all(results);
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "rivals_table: {}\n", e.what());
-    return 1;
-  }
+  return hopmesh::bench::print_tables(argc, argv, 1, "rivals_table RIVALS.json", hopmesh::bench::print_all);
 }
