@@ -12,7 +12,7 @@ namespace hopmesh::networks {
 /// An array that holds one network. Vectors are numbered as quadratic::reached() does.
 class StepArray {
  public:
-  /// `whole`: the network over all nodes. It and `prepared` must outlive this.
+  /// `whole`: the network over all nodes; like `prepared`, it must outlive this.
   StepArray(const solvers::Problem& whole, const levels::Prepared& prepared);
 
   /// The first loads weights, biases and the start. Throws study::Stopped where the user stops it, and
@@ -37,7 +37,7 @@ class StepArray {
   std::uint64_t cycles_ = 0;
 };
 
-/// One course of it, on until it stands still; `problem` is what reached() leaves of the array's.
+/// The course of an array, on until it stands still; `problem` is what reached() leaves of the array's.
 solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
                           solvers::Limits limits, const std::atomic<bool>& stop);
 

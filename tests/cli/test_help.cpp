@@ -1,5 +1,5 @@
 // --help, --version, and the promise that every example in a help text runs.
-#include "tests/cli/cli_test.h"
+#include "tests/support/cli_test.h"
 
 #include <regex>
 

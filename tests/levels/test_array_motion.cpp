@@ -1,6 +1,7 @@
 // Firmware, driver, bus and a software array beside the double reference.
 #include "sim/levels/array_motion.h"
 #include "sim/levels/reference_motion.h"
+#include "tests/support/complaint.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -121,12 +122,8 @@ TEST(ArrayMotion, AStoppedStepDidNotHappen) {
 TEST(ArrayMotion, ABrokenBusIsTold) {
   Rig rig(grid_scene(2, 3));
   rig.port.refuse = true;
-  try {
-    rig.motion.advance();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the bus refused a transfer"));
-  }
+  EXPECT_THAT(complaint<std::runtime_error>([&] { rig.motion.advance(); }),
+              HasSubstr("the bus refused a transfer"));
 }
 
 TEST(ArrayMotion, AnArrayBuiltForAnotherMeshIsTold) {

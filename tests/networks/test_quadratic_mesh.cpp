@@ -1,12 +1,14 @@
 // The solvers on networks of a mesh at a step of 0.05 s: who is faster than whom, and by which power of dt
 // omega.
 #include "tests/networks/quadratics.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::solvers::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace solvers;
 
 // A sheet of 12 x 12 nodes that billows, its step of backward Euler expanded about no change; the scale is
 // such that the largest output of the answer without a box would be `peak`.
@@ -155,4 +157,4 @@ TEST_F(FlagUnderWay, ThePredictionIsABetterStart) {
 }
 
 } // namespace
-} // namespace hopmesh::solvers::testing
+} // namespace hopmesh::tests
