@@ -13,7 +13,7 @@ SharedBus bus_of(const std::shared_ptr<levels::ArrayPort>& port) {
 Contestant contestant_of(const levels::Level& level, const levels::Way& way) {
   levels::PortRequest request;
   request.engine = way.engine;
-  request.quiet = request.all_threads = true;
+  request.all_threads = true;
   const auto make = [&level, request](const ArrayJob& job) -> SharedBus {
     try {
       return bus_of(level.make_port(job.array, job.topology, request));

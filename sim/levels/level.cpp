@@ -15,22 +15,23 @@ namespace hopmesh::levels {
 
 namespace {
 
-std::unique_ptr<ArrayPort> engine_port(const spec::ArraySpec& array, const spec::Topology& topology,
-                                       const PortRequest& request) {
-  engine::Options useful = request.engine;
-  if (!request.all_threads) useful.threads = engine::useful_threads(topology, useful.threads);
-  auto port = std::make_unique<EnginePort>(array, topology, useful, request.wave, stop_requested);
-  const std::string why = port->engine().why_no_kernel();
-  if (!why.empty() && !request.quiet)
-    fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
-  return port;
+Level reference_row() {
+  Level row{"reference", Kind::reference, "the algorithm in double"};
+  row.make_motion = [](const Prepared& p) {
+    return std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, p.inputs.array);
+  };
+  return row;
 }
 
-template <systemc::Waking waking>
-std::unique_ptr<ArrayPort> systemc_port(const spec::ArraySpec& array, const spec::Topology& topology,
-                                        const PortRequest& request) {
-  return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
-                                       request.wave, stop_requested);
+std::unique_ptr<ArrayPort> make_engine_port(const spec::ArraySpec& array, const spec::Topology& topology,
+                                            const PortRequest& request) {
+  engine::Options options = request.engine;
+  if (!request.all_threads) options.threads = engine::useful_threads(topology, options.threads);
+  auto port = std::make_unique<EnginePort>(array, topology, options, request.wave, stop_requested);
+  const std::string why = port->engine().why_no_kernel();
+  if (!why.empty() && request.remarks)
+    fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
+  return port;
 }
 
 // Every kernel, two threads, and sweeps that follow each other. The first kernel takes any array.
@@ -43,26 +44,60 @@ std::vector<Way> engine_ways() {
   return ways;
 }
 
-std::vector<Level> make_table() {
-  constexpr auto by_phase = systemc_port<systemc::Waking::by_phase>;
-  constexpr auto by_clock = systemc_port<systemc::Waking::by_clock>;
-  // name, kind, words, can_resume, can_wave, checked, made_ahead, one_in, make_port, ways
-  std::vector<Level> all{
-      {"reference", Kind::reference, "the algorithm in double", true, false, true, false, 1, nullptr,
-       nullptr},
-      {"engine", Kind::array, "the array as a native program", true, true, false, false, 1, engine_port,
-       engine_ways},
-      {"systemc", Kind::array, "the array in SystemC", true, true, true, true, 1, by_phase, nullptr},
-      {"systemc-clock", Kind::array, "SystemC with every neuron woken at every clock", true, true, true, true,
-       8, by_clock, nullptr},
+Level engine_row() {
+  Level row{"engine", Kind::array, "the array as a native program"};
+  row.make_port = make_engine_port;
+  row.ways = engine_ways;
+  row.can_wave = true;
+  row.checked = false; // the reference would take most of the time
+  return row;
+}
+
+Level systemc_row(const std::string& name, const std::string& words, systemc::Waking waking) {
+  Level row{name, Kind::array, words};
+  row.make_port = [waking](const spec::ArraySpec& array, const spec::Topology& topology,
+                           const PortRequest& request) {
+    return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
+                                         request.wave, stop_requested);
   };
-  for (const std::string& name : rivals::names())
-    all.push_back(
-        {name, Kind::rival, "another integrator, in double", true, false, true, false, 1, nullptr, nullptr});
+  row.can_wave = true;
+  row.made_ahead = true; // SystemC elaborates once a process
+  return row;
+}
+
+Level systemc_by_phase() {
+  return systemc_row("systemc", "the array in SystemC", systemc::Waking::by_phase);
+}
+
+Level systemc_by_clock() {
+  Level row = systemc_row("systemc-clock", "the array in SystemC, every neuron woken by every clock",
+                          systemc::Waking::by_clock);
+  row.one_in = 8;
+  return row;
+}
+
+Level rival_row(const std::string& name) {
+  Level row{name, Kind::rival, "another integrator, in double"};
+  row.make_motion = [name](const Prepared& p) {
+    return std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
+  };
+  return row;
+}
+
+std::vector<Level> make_table() {
+  std::vector<Level> all{reference_row(), engine_row(), systemc_by_phase(), systemc_by_clock()};
+  for (const std::string& name : rivals::names()) all.push_back(rival_row(name));
   return all;
 }
 
-bool is_one(Kind kind, std::initializer_list<Kind> kinds) {
+template <typename Wanted> std::vector<std::string> names_where(Wanted wanted) {
+  std::vector<std::string> names;
+  for (const Level& level : levels())
+    if (wanted(level)) names.push_back(level.name);
+  return names;
+}
+
+bool is_one_of(Kinds kinds, Kind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
@@ -73,23 +108,19 @@ const std::vector<Level>& levels() {
   return table;
 }
 
-std::vector<std::string> level_names(std::initializer_list<Kind> kinds) {
-  std::vector<std::string> names;
-  for (const Level& level : levels())
-    if (is_one(level.kind, kinds)) names.push_back(level.name);
-  return names;
+std::vector<std::string> level_names(Kinds kinds) {
+  return names_where([&](const Level& level) { return is_one_of(kinds, level.kind); });
 }
 
-std::vector<std::string> method_names() {
-  return level_names({Kind::reference, Kind::array, Kind::rival});
+std::vector<std::string> compared_names() {
+  return names_where([](const Level& level) { return is_one_of(sweeping, level.kind) && level.one_in == 1; });
 }
 
-const Level& level_named(const std::string& name, const std::string& flag,
-                         std::initializer_list<Kind> kinds) {
+const Level& level_named(const std::string& name, const std::string& where, Kinds kinds) {
   for (const Level& level : levels())
-    if (level.name == name && is_one(level.kind, kinds)) return level;
+    if (level.name == name && is_one_of(kinds, level.kind)) return level;
   const auto names = level_names(kinds);
-  throw input::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
+  throw input::input_error("", 0, where, name, fmt::format("{}", fmt::join(names, ", ")),
                            input::nearest_name(name, names));
 }
 
@@ -97,21 +128,15 @@ const Level& default_level() {
   return level_named("engine", "");
 }
 
-const Level& reference_row() {
-  return levels().front();
-}
-
-Ready make_ready(const Level& level, const Prepared& p, bool check, const PortRequest& request) {
-  const spec::ArraySpec& array = p.inputs.array;
-  Ready ready;
+ReadyLevel make_ready(const Level& level, const Prepared& p, bool check, const PortRequest& request) {
+  ReadyLevel ready;
   ready.level = &level;
-  if (level.kind == Kind::reference)
-    ready.motion = std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, array);
-  if (level.kind == Kind::rival)
-    ready.motion = std::make_unique<RivalMotion>(level.name, p.inputs.scene, *p.mesh);
-  if (!level.has_bus()) return ready;
-  ready.port = level.make_port(array, p.mesh->topology(), request);
-  auto motion = std::make_unique<ArrayMotion>(p.inputs.scene, *p.mesh, array, *ready.port, check);
+  if (!level.has_bus()) {
+    ready.motion = level.make_motion(p);
+    return ready;
+  }
+  ready.port = level.make_port(p.inputs.array, p.mesh->topology(), request);
+  auto motion = std::make_unique<ArrayMotion>(p.inputs.scene, *p.mesh, p.inputs.array, *ready.port, check);
   ready.array = motion.get();
   ready.motion = std::move(motion);
   return ready;

@@ -70,8 +70,7 @@ Vector rounded(const Vector& V, double last_place) {
 
 StepArray::StepArray(const solvers::Problem& whole, const levels::Prepared& prepared)
     : whole_(whole), prepared_(prepared),
-      port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(),
-                                              {{}, {}, true, false})),
+      port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(), {})),
       there_(port_->bus(), prepared.mesh->topology()), buffer_(4096) {}
 
 // As the firmware loads it, so that no format is interpreted twice.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/input/input_error.h"
+#include "sim/levels/level.h"
 
 #include <cstdint>
 #include <string>
@@ -34,7 +35,7 @@ struct Study {
   std::string name, path, text;
   std::string scene, array;
   std::int64_t steps = 0; ///< 0: the scene's
-  std::vector<std::string> methods{"engine"};
+  std::vector<std::string> methods{levels::default_level().name};
   int methods_line = 0, times_line = 0;
   std::vector<double> times;   ///< s
   std::vector<StudyAxis> axes; ///< in the order of the file

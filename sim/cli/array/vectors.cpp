@@ -71,7 +71,9 @@ class Arrays {
 std::optional<VectorCase> case_of_step(VectorsOptions& o) {
   if (o.step >= 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.step + 1));
   const levels::Prepared p = prepare(o.common);
-  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {});
+  levels::PortRequest request;
+  request.remarks = true;
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p, false, request);
   run::RunResult result;
   {
     const auto steps = static_cast<std::uint64_t>(o.step) + 1;
@@ -169,7 +171,9 @@ void add_vectors(CLI::App& program, int& exit_code) {
   verb->add_option("--out", o->out, "the file to write (docs/vectors.md describes it)");
   verb->add_flag("--blank", o->blank, "without answers: a core fills them in");
   verb->add_option("--check", o->check, "judge a file that was filled in");
-  verb->add_option("--level", o->level, "engine | systemc | systemc-clock: whose answers count")
+  verb->add_option("--level", o->level,
+                   fmt::format("{}: whose answers count",
+                               fmt::join(levels::level_names({levels::Kind::array}), " | ")))
       ->capture_default_str();
   verb->footer("Example:\n  hopmesh vectors two-nodes --step 3 --out out/two-nodes.txt\n"
                "Exit: 0 done, all right; 1 a wrong answer (which is told); 2 bad input.");
