@@ -96,8 +96,7 @@ class Round {
     if (fixed_.size() < 2) return;
     const BusArray first(*buses_[0], mesh.topology());
     run_sweeps_ = first.read(HM_REG_SWEEPS);
-    const std::uint64_t high = first.read(HM_REG_CYCLES_HI);
-    run_cycles_ = high << 32 | first.read(HM_REG_CYCLES_LO);
+    run_cycles_ = first.read_wide(HM_REG_CYCLES_LO);
     job_ = loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
   }
 
@@ -156,8 +155,7 @@ void compare_codes(const std::vector<ReadyLevel>& ready, const std::vector<level
     result.pairs = round.pairs();
     result.difference = round.judge();
     if (!result.difference) result.sweeps_compared += round.sweeps();
-  } catch (const BusFault& fault) {
-    if (fault.error != HM_ERROR_STOPPED) throw;
+  } catch (const levels::Stopped&) {
     result.outcome = run::Outcome::interrupted;
   }
   if (!result.difference) return;

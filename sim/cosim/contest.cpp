@@ -13,12 +13,11 @@ Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
   Answer a;
   for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4)
     a.capabilities.push_back(array.read(at));
-  array.load(job);
+  load(array, job);
   a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();
   a.end = array.run(job.threshold, job.max_sweeps);
   a.output = array.outputs();
-  const std::uint64_t high = array.read(HM_REG_BUS_CYCLES_HI);
-  a.bus_cycles = high << 32 | array.read(HM_REG_BUS_CYCLES_LO);
+  a.bus_cycles = array.read_wide(HM_REG_BUS_CYCLES_LO);
   if (!every_sweep) return a;
   array.put_outputs(job.start);
   for (std::uint32_t sweep = 0; sweep < a.end.sweeps; ++sweep) {

@@ -1,7 +1,7 @@
 // The same job put to several arrays: everything that a host can see must be equal.
 #pragma once
 
-#include "sim/cosim/bus_array.h"
+#include "sim/cosim/loaded_job.h"
 
 #include <functional>
 #include <memory>

@@ -32,10 +32,6 @@ std::uint32_t format_word(const spec::NumberFormat& f) {
          static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
 }
 
-Device* device(void* context) {
-  return static_cast<Device*>(context);
-}
-
 } // namespace
 
 Device::Device(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options,
@@ -43,20 +39,6 @@ Device::Device(const spec::ArraySpec& array, const spec::Topology& topology, con
     : engine_(array, topology, options), stop_(stop) {
   for (std::size_t k = 0; k < registers_.size(); ++k) registers_[k] = rules()[k].reset;
   set_capabilities();
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return device(c)->read(address, word, 1);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return device(c)->write(address, &word, 1);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return device(c)->read(address, words, count);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return device(c)->write(address, words, count);
-  };
-  bus_.wait = [](void* c) { return device(c)->wait(); };
 }
 
 void Device::set_capabilities() {
@@ -198,7 +180,7 @@ void Device::reset() {
   engine_.write_outputs(0, zeros.data(), t.neurons());
 }
 
-int Device::wait() {
+int Device::wait_for_irq() {
   if (irq()) return HM_OK;
   if (stop_) return HM_ERROR_STOPPED;
   if (busy() && !begun_) {

@@ -146,8 +146,7 @@ int vectors(VectorsOptions& o) {
   check_options(o);
   try {
     return o.check.empty() ? write_vectors(o) : check_vectors(o);
-  } catch (const cosim::BusFault& fault) {
-    if (fault.error != HM_ERROR_STOPPED) throw;
+  } catch (const levels::Stopped&) {
     return interrupted;
   }
 }
