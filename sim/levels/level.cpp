@@ -35,19 +35,19 @@ std::unique_ptr<ArrayPort> make_engine_port(const spec::ArraySpec& array, const 
 }
 
 // Every kernel, two threads, and sweeps that follow each other. The first kernel takes any array.
-std::vector<Way> engine_ways() {
-  std::vector<Way> ways;
+std::vector<Variant> engine_variants() {
+  std::vector<Variant> all;
   for (const std::string& kernel : engine::kernel_names())
-    if (kernel != "auto") ways.push_back({"engine (" + kernel + ")", {1, kernel, 1}, 1});
-  ways.push_back({"engine (2 threads)", {2, "auto", 1}, 8});
-  ways.push_back({"engine (sweeps following)", {1, "auto", 3}, 1});
-  return ways;
+    if (kernel != "auto") all.push_back({kernel, {1, kernel, 1}, 1});
+  all.push_back({"2 threads", {2, "auto", 1}, 8});
+  all.push_back({"sweeps following", {1, "auto", 3}, 1});
+  return all;
 }
 
 Level engine_row() {
   Level row{"engine", Kind::array, "the array as a native program"};
   row.make_port = make_engine_port;
-  row.ways = engine_ways;
+  row.variants = engine_variants();
   row.can_wave = true;
   row.checked = false; // the reference would take most of the time
   return row;
@@ -126,6 +126,35 @@ const Level& level_named(const std::string& name, const std::string& where, Kind
 
 const Level& default_level() {
   return level_named("engine", "");
+}
+
+namespace {
+
+Way make_way(const Level& level, const Variant& variant) {
+  PortRequest request;
+  request.engine = variant.engine;
+  request.all_threads = true;
+  const auto make = [make = level.make_port, request](const spec::ArraySpec& array,
+                                                      const spec::Topology& topology) {
+    try {
+      return make(array, topology, request);
+    } catch (const std::invalid_argument&) { // not on this processor, or not for this array
+      return std::unique_ptr<ArrayPort>();
+    }
+  };
+  const std::string name =
+      variant.name.empty() ? level.name : fmt::format("{} ({})", level.name, variant.name);
+  return {name, make, level.made_ahead, level.one_in * variant.one_in};
+}
+
+} // namespace
+
+std::vector<Way> ways_of(const std::vector<const Level*>& levels) {
+  std::vector<Way> ways;
+  for (const Level* level : levels)
+    for (const Variant& variant : level->variants) ways.push_back(make_way(*level, variant));
+  if (!ways.empty()) ways.front().one_in = 1;
+  return ways;
 }
 
 ReadyLevel make_ready(const Level& level, const Prepared& p, bool check, const PortRequest& request) {

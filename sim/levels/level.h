@@ -27,10 +27,19 @@ struct PortRequest {
   bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
 };
 
-/// One of several ways in which a level computes the same array.
+/// One of the settings in which a level computes the same bits.
+struct Variant {
+  std::string name = {}; ///< "" for the only one
+  engine::Options engine = {};
+  std::uint64_t one_in = 1; ///< takes part in one of so many cases of a campaign
+};
+
+/// A level in one of its variants, as a campaign takes it.
 struct Way {
   std::string name;
-  engine::Options engine;
+  /// Makes an array; null where this way cannot have it.
+  std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&)> make;
+  bool made_ahead = false;  ///< all arrays of a process are made before the first is used
   std::uint64_t one_in = 1; ///< takes part in one of so many cases of a campaign
 };
 
@@ -45,8 +54,7 @@ struct Level {
       make_port = nullptr;
   /// Makes its motion of a scene; empty where make_port is not: an array moves a scene by the firmware.
   std::function<std::unique_ptr<Motion>(const Prepared&)> make_motion = nullptr;
-  /// All ways of computing, for a campaign; empty: there is one only.
-  std::function<std::vector<Way>()> ways = nullptr;
+  std::vector<Variant> variants = {{}};
 
   bool can_wave = false;    ///< its registers can be written to a wave
   bool checked = true;      ///< `run` asks the reference beside every step, unless told otherwise
@@ -73,6 +81,8 @@ std::vector<std::string> compared_names();
 const Level& level_named(const std::string& name, const std::string& where, Kinds kinds = any_kind);
 /// Runs when nobody names a level.
 const Level& default_level();
+/// Levels with a bus in all their variants. The first takes part in every case.
+std::vector<Way> ways_of(const std::vector<const Level*>& levels);
 
 /// A level made ready to move a mesh. `array` and `port` are null where the level has no bus.
 struct ReadyLevel {

@@ -21,7 +21,7 @@ class Explain : public ::testing::Test {
   std::optional<cosim::FirstDifference> difference(SoftArray& a, SoftArray& b, std::uint32_t max_sweeps) {
     const ArrayJob job = network(max_sweeps);
     for (SoftArray* each : {&a, &b}) {
-      cosim::BusArray(each->bus(), job.topology).load(job);
+      cosim::load(cosim::BusArray(each->bus(), job.topology), job);
       each->forget_loads();
     }
     return cosim::first_difference({&a.bus(), &b.bus()}, mesh, job, max_sweeps);

@@ -30,20 +30,6 @@ SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topolog
                 {HM_REG_CAP_FORMAT_WEIGHT, word_of(array.formats.weight)},
                 {HM_REG_CAP_FORMAT_BIAS, word_of(array.formats.bias)},
                 {HM_REG_CAP_FORMAT_STATE, word_of(array.formats.state)}};
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return static_cast<SoftArray*>(c)->transfer(address, word, 1, false);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return static_cast<SoftArray*>(c)->transfer(address, &word, 1, true);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SoftArray*>(c)->transfer(address, words, count, false);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SoftArray*>(c)->transfer(address, const_cast<std::uint32_t*>(words), count, true);
-  };
-  bus_.wait = [](void* c) -> int { return static_cast<SoftArray*>(c)->stop ? HM_ERROR_STOPPED : HM_OK; };
 }
 
 std::uint32_t* SoftArray::word_at(std::uint32_t address) {

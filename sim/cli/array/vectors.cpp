@@ -2,7 +2,6 @@
 #include "sim/cosim/vectors.h"
 
 #include "sim/cli/options.h"
-#include "sim/cosim/contestants.h"
 #include "sim/cosim/random_job.h"
 #include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
@@ -51,17 +50,19 @@ void check_options(const VectorsOptions& o) {
 /// used.
 class Arrays {
  public:
-  explicit Arrays(const std::string& level)
-      : contestant_(cosim::contestant_of(levels::level_named(level, "--level"))) {}
-  bool ahead() const { return contestant_.ahead; }
-  void expect(const cosim::ArrayJob& job) { made_.push_back(contestant_.make(job)); }
-  cosim::SharedBus next(const cosim::ArrayJob& job) {
-    return ahead() ? std::move(made_.at(used_++)) : contestant_.make(job);
+  explicit Arrays(const std::string& level) : level_(levels::level_named(level, "--level")) {}
+  bool ahead() const { return level_.made_ahead; }
+  void expect(const cosim::ArrayJob& job) { made_.push_back(level_.make_port(job.array, job.topology, {})); }
+  const hm_bus& next(const cosim::ArrayJob& job) {
+    if (ahead()) return made_.at(used_++)->bus();
+    made_.clear();
+    expect(job);
+    return made_.back()->bus();
   }
 
  private:
-  const cosim::Contestant contestant_;
-  std::vector<cosim::SharedBus> made_;
+  const levels::Level& level_;
+  std::vector<std::unique_ptr<levels::ArrayPort>> made_;
   std::size_t used_ = 0;
 };
 
@@ -110,7 +111,7 @@ int write_vectors(VectorsOptions& o) {
   for (std::int64_t k = 0; k < cases; ++k) {
     if (levels::stop_requested) return interrupted;
     const VectorCase a_case = number(k);
-    file.add(a_case, o.blank ? nullptr : arrays.next(a_case.job).get());
+    file.add(a_case, o.blank ? nullptr : &arrays.next(a_case.job));
   }
   file.commit();
   fmt::print("{}: {} cases, {}\n", o.out, grouped(static_cast<std::uint64_t>(cases)),
@@ -130,8 +131,7 @@ int check_vectors(const VectorsOptions& o) {
   std::uint64_t cases = 0, lines = 0;
   for (; reader.next(a_case); ++cases) {
     if (levels::stop_requested) return interrupted;
-    const cosim::SharedBus bus = arrays.next(a_case.job);
-    const std::string wrong = cosim::check_answers(o.check, reader, a_case, *bus, lines);
+    const std::string wrong = cosim::check_answers(o.check, reader, a_case, arrays.next(a_case.job), lines);
     if (wrong.empty()) continue;
     fmt::print("{}\n", wrong);
     return differs;
