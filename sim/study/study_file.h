@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sim/input/input_error.h"
-#include "sim/levels/level.h"
 
 #include <cstdint>
 #include <string>
@@ -35,7 +34,7 @@ struct Study {
   std::string name, path, text;
   std::string scene, array;
   std::int64_t steps = 0; ///< 0: the scene's
-  std::vector<std::string> methods{levels::default_level().name};
+  std::vector<std::string> methods; ///< where the file names none: the default level
   int methods_line = 0, times_line = 0;
   std::vector<double> times;   ///< s
   std::vector<StudyAxis> axes; ///< in the order of the file

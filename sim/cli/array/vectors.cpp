@@ -3,6 +3,7 @@
 
 #include "sim/cli/options.h"
 #include "sim/cosim/random_job.h"
+#include "sim/levels/level.h"
 #include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/progress.h"
