@@ -18,7 +18,7 @@ bool differs_in_child(const Ways& ways, const ArrayJob& job);
 Ways involved(const Ways& ways, const Finding& finding);
 
 /// A vector file with the job, the first way's answers (none if it crashes), and in comments what the
-/// others say. Throws record::WriteError.
+/// others say. Throws files::WriteError.
 void write_finding(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
                    const std::vector<std::string>& comments);
 

@@ -16,7 +16,7 @@ namespace hopmesh::levels {
 namespace {
 
 Level reference_row() {
-  Level row{"reference", Kind::reference, "the algorithm in double"};
+  Level row{"reference", Kind::reference, "the algorithm in double, sweep by sweep"};
   row.make_motion = [](const Prepared& p) {
     return std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, p.inputs.array);
   };
@@ -45,7 +45,7 @@ std::vector<Variant> engine_variants() {
 }
 
 Level engine_row() {
-  Level row{"engine", Kind::array, "the array as a native program"};
+  Level row{"engine", Kind::array, "the array, by a native program"};
   row.make_port = make_engine_port;
   row.variants = engine_variants();
   row.can_wave = true;
@@ -66,18 +66,18 @@ Level systemc_row(const std::string& name, const std::string& words, systemc::Wa
 }
 
 Level systemc_by_phase() {
-  return systemc_row("systemc", "the array in SystemC", systemc::Waking::by_phase);
+  return systemc_row("systemc", "the array, cycle by cycle in SystemC", systemc::Waking::by_phase);
 }
 
 Level systemc_by_clock() {
-  Level row = systemc_row("systemc-clock", "the array in SystemC, every neuron woken by every clock",
+  Level row = systemc_row("systemc-clock", "the array in SystemC, every neuron woken by every clock (slow)",
                           systemc::Waking::by_clock);
   row.one_in = 8;
   return row;
 }
 
 Level rival_row(const std::string& name) {
-  Level row{name, Kind::rival, "another integrator, in double"};
+  Level row{name, Kind::rival, fmt::format("a rival in double; {}", rivals::about(name))};
   row.make_motion = [name](const Prepared& p) {
     return std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
   };

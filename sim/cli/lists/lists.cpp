@@ -1,4 +1,4 @@
-// hopmesh scenes, presets, studies, problems: what comes with the program, a line each.
+// hopmesh scenes, presets, levels, studies, problems: what comes with the program, a line each.
 #include "rtl_model/spec/array_rules.h"
 #include "sim/cli/options.h"
 #include "sim/input/shipped.h"
