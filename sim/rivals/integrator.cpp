@@ -8,16 +8,20 @@
 namespace hopmesh::rivals {
 namespace {
 
-using Maker = std::unique_ptr<Method> (*)(const Physics&, double, const Options&);
+struct Row {
+  std::string name;
+  const char* words;
+  std::unique_ptr<Method> (*make)(const Physics&, double, const Options&);
+};
 
-const std::vector<std::pair<std::string, Maker>> makers = {
-    {"symplectic_euler", symplectic_euler},
-    {"velocity_verlet", velocity_verlet},
-    {"rk4", rk4},
-    {"backward_euler", backward_euler},
-    {"bdf2", bdf2},
-    {"xpbd", xpbd},
-    {"projective_dynamics", projective_dynamics},
+const std::vector<Row> rows = {
+    {"symplectic_euler", "explicit, order 1: velocities, then places by the new ones", symplectic_euler},
+    {"velocity_verlet", "explicit, order 2: half a kick, a drift, half a kick", velocity_verlet},
+    {"rk4", "explicit, order 4: the classical Runge-Kutta method", rk4},
+    {"backward_euler", "implicit, order 1: each step solved by Newton's method", backward_euler},
+    {"bdf2", "implicit, order 2: looks two steps back, solved by Newton's method", bdf2},
+    {"xpbd", "springs as constraints, met in turn", xpbd},
+    {"projective_dynamics", "backward Euler by local and global solves", projective_dynamics},
 };
 
 // Far beyond any motion a scene describes, far below where squares overflow and infinities breed NaN.
@@ -66,19 +70,31 @@ void Method::diverge(const std::string& how) const {
 const std::vector<std::string>& names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> result;
-    for (const auto& [name, maker] : makers) result.push_back(name);
+    for (const Row& row : rows) result.push_back(row.name);
     return result;
   }();
   return all;
 }
 
+namespace {
+
+const Row& row_named(const std::string& name) {
+  for (const Row& row : rows)
+    if (row.name == name) return row;
+  throw input::input_error("", 0, "method", input::in_quotes(name), "one of " + list(names()),
+                           input::nearest_name(name, names()));
+}
+
+} // namespace
+
+const char* about(const std::string& name) {
+  return row_named(name).words;
+}
+
 std::unique_ptr<Method> make_method(const std::string& name, const Physics& physics, double time_step,
                                     const Options& options) {
   check(time_step, options);
-  for (const auto& [known, maker] : makers)
-    if (known == name) return maker(physics, time_step, options);
-  throw input::input_error("", 0, "method", input::in_quotes(name), "one of " + list(names()),
-                           input::nearest_name(name, names()));
+  return row_named(name).make(physics, time_step, options);
 }
 
 } // namespace hopmesh::rivals

@@ -65,8 +65,10 @@ class Method {
 };
 
 const std::vector<std::string>& names();
+/// One of them for people, in a phrase.
+const char* about(const std::string& name);
 
-/// Throws scene::InputError for a name that is none of names(), a time step that is not positive, options out
+/// Throws input::InputError for a name that is none of names(), a time step that is not positive, options out
 /// of range.
 std::unique_ptr<Method> make_method(const std::string& name, const Physics& physics, double time_step,
                                     const Options& options = {});

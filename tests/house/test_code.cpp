@@ -76,11 +76,12 @@ bool may_name_levels(const std::string& path) {
 }
 
 TEST(Code, namesLevelsAtHomeOnly) {
-  const std::vector<std::string> names = levels::method_names();
+  const std::vector<std::string> names = levels::level_names();
   for (const TreeFile& file : tree_files({".h", ".cpp"}))
-    if (!may_name_levels(file.path))
-      for (const Piece& string : code_of(file.text).strings)
+    for (const Piece& string : code_of(file.text).strings)
+      if (!may_name_levels(file.path)) {
         EXPECT_THAT(names, ::testing::Not(::testing::Contains(string.text))) << place(file, string.line);
+      }
 }
 
 } // namespace

@@ -67,7 +67,7 @@ TEST_P(WaveFile, IsNotLeftBehindHalfWritten) {
 }
 
 TEST_P(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
-  std::size_t refused = 0;
+  std::size_t count = 0;
   for (const char* bad :
        {"--wave-window 5:5", "--wave-window 7:3", "--wave-window 3", "--wave-window a:b",
         "--wave-window 1:2x", "--wave-window=-1:3", "--wave-window 1:2cc", "--wave-window 1c:2c",
@@ -76,9 +76,9 @@ TEST_P(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
         "--wave-cells 0x1"}) {
     refused(line(nine + " --steps 1 --out r --wave w.vcd " + bad));
     EXPECT_EQ(names_in(around.folder), std::vector<std::string>{}) << bad;
-    ++refused;
+    ++count;
   }
-  EXPECT_EQ(refused, 18u);
+  EXPECT_EQ(count, 18u);
 }
 
 INSTANTIATE_TEST_SUITE_P(At, WaveFile, testing::Values("systemc", "engine"),

@@ -1,6 +1,5 @@
 // A motion that is given its state back, and a run that goes on from its folder, equal the unbroken one.
-#include "sim/levels/array_motion.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/level.h"
 #include "sim/run/checkpointer.h"
 #include "sim/run/step_table.h"
 #include "tests/support/complaint.h"
@@ -23,26 +22,22 @@ scene::Scene short_scene() {
   return scene;
 }
 
-/// A software array's or the reference's motion of the scene, as a run has it.
+/// A level's motion of the scene, as a run has it.
 struct Rig {
-  explicit Rig(bool fixed) : mesh(short_scene()), port(fine_array(), mesh.topology()) {
-    if (fixed)
-      motion = std::make_unique<levels::ArrayMotion>(short_scene(), mesh, fine_array(), port, true);
-    else
-      motion = std::make_unique<levels::ReferenceMotion>(short_scene(), mesh, fine_array());
-    facts = {{short_scene(), fine_array()},
-             &levels::level_named(fixed ? "engine" : "reference", ""),
-             "hopmesh run grid",
-             0,
-             fixed};
+  explicit Rig(const std::string& name) : Rig(levels::level_named(name, "")) {}
+  explicit Rig(const levels::Level& level)
+      : prepared{{short_scene(), fine_array()}, std::make_unique<levels::BuiltMesh>(short_scene())},
+        ready(levels::make_ready(level, prepared, true)), mesh(*prepared.mesh),
+        motion(ready.motion.get()), facts{prepared.inputs, &level, "hopmesh run grid", 0, level.has_codes()} {
   }
-  levels::BuiltMesh mesh;
-  SoftArray port;
-  std::unique_ptr<levels::Motion> motion;
+  levels::Prepared prepared;
+  levels::ReadyLevel ready;
+  const levels::BuiltMesh& mesh;
+  levels::Motion* motion;
   run::RunFacts facts;
 };
 
-class Resume : public ::testing::TestWithParam<bool> {
+class Resume : public ::testing::TestWithParam<const char*> {
  protected:
   /// The first steps of a run, saved after each; then its process is gone.
   void begin(std::uint64_t steps) const {
@@ -73,8 +68,9 @@ class Resume : public ::testing::TestWithParam<bool> {
   std::atomic<bool> stop{false};
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Bool(),
-                         [](const auto& made) { return made.param ? "Array" : "Reference"; });
+// One of each kind; bdf2 looks two steps back. tests/cli/test_resume.cpp tries every level.
+INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Values("engine", "reference", "bdf2"),
+                         [](const auto& made) { return made.param; });
 
 TEST_P(Resume, AMotionGoesOnFromItsState) {
   Rig unbroken(GetParam()), first(GetParam()), second(GetParam());
@@ -201,10 +197,17 @@ TEST_P(Resume, AnotherSceneIsRefusedByItsMesh) {
 }
 
 TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
-  Rig rig(true), unbroken(true), again(true);
+  SoftArray* port = nullptr;
+  levels::Level soft{"soft"};
+  soft.make_port = [&](const auto& array, const auto& topology, const auto&) {
+    auto made = std::make_unique<SoftArray>(array, topology);
+    port = made.get();
+    return made;
+  };
+  Rig unbroken(soft), again(soft), rig(soft);
   rig.motion->advance();
   unbroken.motion->advance();
-  rig.port.stop = true;
+  port->stop = true;
   EXPECT_THROW(rig.motion->advance(), levels::Stopped);
   const levels::StepState state = rig.motion->state(), wanted = unbroken.motion->state();
   EXPECT_EQ(state.step, 1u);

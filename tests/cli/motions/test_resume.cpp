@@ -1,5 +1,6 @@
 // --checkpoint-every and --resume: a run that was interrupted or killed goes on to the bits of an unbroken
 // one, and what is no checkpoint of it is refused with the folder left as it was.
+#include "tests/cli/levels_by_name.h"
 #include "tests/cli/motions/resume_test.h"
 
 #include "place.h"
@@ -15,18 +16,12 @@ namespace fs = std::filesystem;
 // Seven nodes in a row: quick, and no sheet to be pictured.
 const std::string row = "two-nodes --set mesh.grid.columns=7 --set force.wind=[0.3,0.1,0]";
 
-class CliResumeLevel : public CliResume, public ::testing::WithParamInterface<const char*> {
+class CliResumeLevel : public CliResume, public ::testing::WithParamInterface<std::string> {
  protected:
-  std::string level() const { return std::string(" --level ") + GetParam(); }
+  std::string level() const { return " --level " + GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, CliResumeLevel,
-                         ::testing::Values("reference", "engine", "systemc", "systemc-clock"),
-                         [](const auto& made) {
-                           std::string name = made.param;
-                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, CliResumeLevel, ::testing::ValuesIn(levels::level_names()), name_of_level);
 
 TEST_P(CliResumeLevel, AKilledRunGoesOnToTheSameBits) {
   const fs::path unbroken = results_of(row + " --steps 60" + level(), "u");
@@ -44,8 +39,9 @@ TEST_P(CliResumeLevel, AnInterruptedRunGoesOnToTheSameBits) {
   const Finished stopped = ended(line, 9, SIGINT);
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_THAT(stopped.out, HasSubstr("To go on\n  hopmesh run --resume r\n"));
-  EXPECT_EQ(
-      fault_of_results(at("r"), read_json(at("r/stats.json"))["steps"], level() != " --level reference"), "");
+  EXPECT_EQ(fault_of_results(at("r"), read_json(at("r/stats.json"))["steps"],
+                             levels::level_named(GetParam(), "").has_codes()),
+            "");
   EXPECT_EQ(hopmesh("run --resume r --steps 70").exit_code, 0);
   EXPECT_EQ(difference(unbroken, at("r")), "");
 }

@@ -128,17 +128,17 @@ TEST_F(CliSweep, AChangedStudyIsRefused) {
 }
 
 TEST_F(CliSweep, MistakesAreToldByLineBeforeAnythingRuns) {
-  const auto refused = [this](const std::string& more, const std::string& words) {
+  const auto mistake = [this](const std::string& more, const std::string& words) {
     write_text(at("s.toml"), "scene = \"two-nodes\"\nsteps = 10\n" + more);
     refused("sweep s.toml --out r", words);
     EXPECT_FALSE(std::filesystem::exists(at("r"))) << more;
   };
-  refused("[axes]\n\"probe.gmma\" = [1, 2]\n", "s.toml:4: probe.gmma: found an unknown key");
-  refused("[axes]\n\"probe.gamma\" = []\n", "s.toml:4: ");
-  refused("[axes]\n\"array.lanes\" = [1, 0]\n", "s.toml:4: array.lanes: found 0");
-  refused("times = [0.2, 0.2]\n", "s.toml:3: times: found 0.2, expected each time after the one before");
-  refused("times = [100]\n", "s.toml:3: times: found 100");
-  refused("methods = [\"engin\"]\n", "mean engine?");
+  mistake("[axes]\n\"probe.gmma\" = [1, 2]\n", "s.toml:4: probe.gmma: found an unknown key");
+  mistake("[axes]\n\"probe.gamma\" = []\n", "s.toml:4: ");
+  mistake("[axes]\n\"array.lanes\" = [1, 0]\n", "s.toml:4: array.lanes: found 0");
+  mistake("times = [0.2, 0.2]\n", "s.toml:3: times: found 0.2, expected each time after the one before");
+  mistake("times = [100]\n", "s.toml:3: times: found 100");
+  mistake("methods = [\"engin\"]\n", "mean engine?");
 }
 
 // Two methods are implicit Euler, one by the array: next to each other, and off the truth by what the step
