@@ -42,8 +42,10 @@ struct Budget {
   std::vector<study::BudgetAt> rows; ///< where everybody came to
 };
 
-bool is_probe(const Prepared& p) {
-  return p.inputs.scene.motion.formulation == scene::Formulation::probe;
+/// A rival that solves what the scene's steps approximate bears the formulation's name.
+bool has_exact_step(const scene::Scene& scene) {
+  const auto& rivals = rivals::names();
+  return std::find(rivals.begin(), rivals.end(), scene.formulation_name()) != rivals.end();
 }
 
 void set_steps(const BudgetOptions& o, Prepared& p) {
@@ -87,8 +89,8 @@ std::vector<Link> chain_of(const BudgetOptions& o, const Prepared& p, const Leve
                    "formulation",
                    std::make_shared<study::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
                    {}});
-  if (!is_probe(p))
-    chain.push_back({scene.incremental.rule + ", each step solved exactly",
+  if (has_exact_step(scene))
+    chain.push_back({scene.formulation_name() + ", each step solved exactly",
                      "time step",
                      std::make_shared<ExactStep>(scene, *p.mesh),
                      {}});
@@ -144,7 +146,7 @@ void print(const Prepared& p, const Budget& budget) {
   for (std::size_t k = 0; k + 1 < budget.chain.size(); ++k)
     fmt::print("  {:<22} {}\n  {:<22} less {}\n", budget.chain[k].mends, budget.chain[k].motion, "",
                budget.chain[k + 1].motion);
-  if (is_probe(p))
+  if (!has_exact_step(p.inputs.scene))
     fmt::print(
         "The probe has no exact step that tends to this physics, so its time step has no part of its own: "
         "formulation\nis all that lies between its rest and the truth.\n");

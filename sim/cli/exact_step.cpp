@@ -13,7 +13,7 @@ scene::Scene without_friction(scene::Scene scene) {
 } // namespace
 
 ExactStep::ExactStep(const scene::Scene& scene, const study::BuiltMesh& mesh)
-    : rival_(scene.incremental.rule, without_friction(scene), mesh), friction_(scene.motion.friction) {}
+    : rival_(scene.formulation_name(), without_friction(scene), mesh), friction_(scene.motion.friction) {}
 
 study::StepRow ExactStep::advance() {
   study::StepRow row = rival_.advance();

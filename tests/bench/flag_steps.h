@@ -43,7 +43,7 @@ class FlagSteps {
 
   const study::BuiltMesh& mesh_;
   tests::Dut& dut_;
-  const hm_motion motion_;
+  const hm_step_parameters parameters_;
   hm_bus bus_{};
   hm_driver driver_{};
   std::optional<study::StepMemory> memory_; ///< anew at every begin()

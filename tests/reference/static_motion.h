@@ -8,7 +8,7 @@ namespace hopmesh::reference::testing {
 /// Relaxed to the end, one expansion a step.
 inline Motion static_motion() {
   Motion motion{};
-  motion.rule = Rule::statics;
+  motion.formulation = &statics;
   motion.mass = motion.time_step = motion.friction = 1;
   motion.force.setZero();
   motion.threshold = 1e-16, motion.max_sweeps = 20000, motion.expansions = 1;
