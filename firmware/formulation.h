@@ -1,4 +1,5 @@
-/* A formulation of the time step (docs/theory.md, section 4): a struct of functions, and the table of them.
+/* A formulation of the time step (docs/method/theory.md, section 4): a struct of functions, and the table of
+ * them.
  */
 #ifndef HOPMESH_FIRMWARE_FORMULATION_H
 #define HOPMESH_FIRMWARE_FORMULATION_H

@@ -1,5 +1,5 @@
-/* Backward Euler and BDF2 (docs/theory.md, section 4): outputs are changes of acceleration, which inertia
-   holds back. */
+/* Backward Euler and BDF2 (docs/method/theory.md, section 4): outputs are changes of acceleration, which
+   inertia holds back. */
 #include "firmware/incremental.h"
 #include "firmware/network.h"
 

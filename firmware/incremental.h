@@ -1,5 +1,5 @@
-/* What the steps of the incremental potential share (docs/theory.md, section 4): outputs are changes over a
-   scale, a power of two chosen step by step so that they use their range without being clipped. */
+/* What the steps of the incremental potential share (docs/method/theory.md, section 4): outputs are changes
+   over a scale, a power of two chosen step by step so that they use their range without being clipped. */
 #ifndef HOPMESH_FIRMWARE_INCREMENTAL_H
 #define HOPMESH_FIRMWARE_INCREMENTAL_H
 

@@ -1,4 +1,5 @@
-/* The probe (docs/theory.md, section 4): outputs are directions, and a node's springs tell how far it goes.
+/* The probe (docs/method/theory.md, section 4): outputs are directions, and a node's springs tell how far it
+ * goes.
  */
 #include "firmware/formulation.h"
 #include "firmware/network.h"

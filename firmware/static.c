@@ -1,5 +1,5 @@
-/* The static step (docs/theory.md, section 4): outputs are displacements towards the least potential energy,
-   nothing has a speed, and a step is one of Newton's. */
+/* The static step (docs/method/theory.md, section 4): outputs are displacements towards the least potential
+   energy, nothing has a speed, and a step is one of Newton's. */
 #include "firmware/incremental.h"
 #include "firmware/numbers.h"
 #include "firmware/springs.h"

@@ -1,4 +1,4 @@
-// One time step of the probe: predict, expand, relax, advance (docs/theory.md, section 4).
+// One time step of the probe: predict, expand, relax, advance (docs/method/theory.md, section 4).
 #include "sim/reference/components.h"
 
 #include <cmath>
@@ -73,8 +73,8 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State
   }
 }
 
-// docs/theory.md, section 4 (probe). With more than one expansion the step reports the last one, sweeps
-// summed: from V0, its network comes to rest at relaxation.V.
+// docs/method/theory.md, section 4 (probe). With more than one expansion the step reports the last one,
+// sweeps summed: from V0, its network comes to rest at relaxation.V.
 Step advance_once(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
   Step step;
   step.predicted = predict(mesh, motion, state);
@@ -101,7 +101,7 @@ Network network_about(const scene::Mesh& mesh, const Motion& motion, const State
 
 } // namespace
 
-// docs/theory.md, section 1: C_i = x_i + v_i dt + h memory a_i, and x_i where pinned.
+// docs/method/theory.md, section 1: C_i = x_i + v_i dt + h memory a_i, and x_i where pinned.
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state) {
   const double dt = motion.time_step, h = dt * dt / 2;
   Vector predicted = state.position;
@@ -112,7 +112,7 @@ Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state
   return predicted;
 }
 
-// docs/theory.md, section 2.
+// docs/method/theory.md, section 2.
 Vector expansion_point(const scene::Mesh& mesh, const State& state) {
   Vector V0 = Vector::Zero(components(mesh) * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {

@@ -1,5 +1,7 @@
 // The firmware asks nothing of its platform but sqrt and the memory functions that every compiler may call;
 // it has no heap and no state of its own.
+#include "place.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +24,7 @@ std::string trimmed(const std::string& text) {
 /// Lines of `nm OPTION` on the firmware's archive: name, value, type, class, size, line, section.
 std::vector<Symbol> symbols(const std::string& option) {
   std::vector<Symbol> found;
-  FILE* pipe = popen(("nm -f sysv " + option + " " FIRMWARE_LIBRARY).c_str(), "r");
+  FILE* pipe = popen(("nm -f sysv " + option + " " HOPMESH_FIRMWARE_LIBRARY).c_str(), "r");
   if (pipe == nullptr) return found;
   char line[1024];
   while (std::fgets(line, sizeof line, pipe)) {
@@ -46,7 +48,7 @@ TEST(Freestanding, NeedsNothingButSqrtAndMemoryFunctions) {
   const std::set<std::string> allowed{"sqrt", "memcpy", "memset", "memmove", "memcmp"};
   std::set<std::string> defined;
   for (const Symbol& symbol : symbols("--defined-only")) defined.insert(symbol.name);
-  ASSERT_TRUE(defined.count("hm_step")) << "nm did not read " FIRMWARE_LIBRARY;
+  ASSERT_TRUE(defined.count("hm_step")) << "nm did not read " HOPMESH_FIRMWARE_LIBRARY;
   for (const auto& [name, type, section] : symbols("--undefined-only"))
     EXPECT_TRUE(allowed.count(name) || defined.count(name) || of_the_compiler(name)) << name;
 }

@@ -11,7 +11,7 @@ extern "C" {
 namespace hopmesh::tests {
 namespace {
 
-/// The rule of docs/theory.md, section 3, in double and in number order, on the firmware's own layout.
+/// The rule of docs/method/theory.md, section 3, in double and in number order, on the firmware's own layout.
 int relax_in_double(void*, const hm_mesh* m, hm_network* n, double threshold, std::uint32_t max_sweeps,
                     hm_relaxation* result) {
   *result = {};
@@ -178,6 +178,7 @@ TEST(Integrator, WalksAFormulationsFunctionsInOrder) {
   Pair pair(one);
   Moving moving(pair);
   moving.velocity = {1, 2, 3};
+  Falling::calls().clear();
   const hm_formulation falling{
       "falling",       1, &Falling::begin, &Falling::build, &hm_expand, &Falling::weigh, &Falling::next,
       &Falling::finish};
