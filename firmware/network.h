@@ -49,6 +49,7 @@ typedef struct hm_network {
 uint32_t hm_row_offset(const hm_mesh* mesh, uint32_t cell, uint32_t p);
 uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell);
 uint32_t hm_weight_count(const hm_mesh* mesh);
+uint32_t hm_neuron_count(const hm_mesh* mesh);
 
 /* Finds each spring's two links. Returns HM_OK, or HM_ERROR_MESH if a spring between free nodes has none. */
 int hm_mesh_connect(hm_mesh* mesh);

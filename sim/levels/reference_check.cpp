@@ -67,10 +67,10 @@ Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
 reference::Network ReferenceCheck::expanded(const std::vector<double>& start, double scale,
                                             Vector& V0) const {
   const scene::Mesh& mesh = mesh_.mesh();
-  const bool probe = motion_.rule == reference::Rule::probe;
-  V0 = probe && motion_.expansions == 1 ? reference::expansion_point(mesh, state_) : by_node(start);
-  if (probe) return reference::network(mesh, motion_, reference::predict(mesh, motion_, state_), V0);
-  return reference::network(mesh, reference::increment(mesh, motion_, state_), scale, V0);
+  const reference::Formulation& formulation = *motion_.formulation;
+  const bool known = !formulation.increment && motion_.expansions == 1;
+  V0 = known ? formulation.start(mesh, state_, scale) : by_node(start);
+  return formulation.network(mesh, motion_, state_, scale, V0);
 }
 
 ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,

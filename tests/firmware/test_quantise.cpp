@@ -73,6 +73,14 @@ TEST(Quantise, HugeValuesKeepTheirLowBitsWhenTheyWrap) {
     for (double sign : {1.0, -1.0}) expect_code(sign * std::ldexp(0x1p52 + 1, k - 14), 0, f);
 }
 
+TEST(Quantise, HalvesFarBeyondTheFormatAreRoundedBeforeTheyWrap) {
+  for_every_mode(32, 31, [](const NumberFormat& f) {
+    for (int e = 30; e <= 52; ++e)
+      for (double beside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5})
+        for (double sign : {1.0, -1.0}) expect_code(sign * (std::ldexp(1.0, e) + beside) / 2, 0, f);
+  });
+}
+
 TEST(Quantise, ScalesByThePowerOfTwoExactly) {
   const NumberFormat f{16, 1, Rounding::rnd, Overflow::sat};
   for (int shift = -900; shift <= 900; shift += 7) expect_code(std::ldexp(0.7, -shift), shift, f);

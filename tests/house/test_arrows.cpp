@@ -1,6 +1,8 @@
 // Arrows between rooms go one way: each #include "..." line is held against a table.
 #include "tests/house/tree.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
 #include <regex>
@@ -59,6 +61,17 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/files", "sim/pictures"}},
 };
 
+// The firmware's units by floor: a unit includes only units of floors below it. What all formulations of a
+// step stand on knows none of them.
+const std::vector<Rooms> firmware_floors = {{"bus", "registers", "numbers"},
+                                            {"network", "quantise"},
+                                            {"springs", "relax"},
+                                            {"driver", "step"},
+                                            {"formulation"},
+                                            {"incremental"},
+                                            {"probe", "implicit", "static"},
+                                            {"integrator"}};
+
 // Written by CMake when the build is configured.
 const std::set<std::string> generated = {"version.h", "place.h"};
 
@@ -113,6 +126,18 @@ void judge_include(const TreeFile& file, const std::string& included) {
   EXPECT_TRUE(may_include(room_of(file.path), included)) << file.path << " includes " << included;
 }
 
+std::size_t firmware_floor(const std::string& unit) {
+  const auto has_unit = [&](const Rooms& floor) { return floor.count(unit) > 0; };
+  const auto floor = std::find_if(firmware_floors.begin(), firmware_floors.end(), has_unit);
+  return static_cast<std::size_t>(floor - firmware_floors.begin());
+}
+
+bool firmware_may_include(const std::string& file, const std::string& included) {
+  const auto unit_of = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+  return unit_of(file) == unit_of(included) ||
+         firmware_floor(unit_of(file)) > firmware_floor(unit_of(included));
+}
+
 void judge_library(const TreeFile& file, const std::string& line) {
   static const std::regex outside("\\s*#\\s*include\\s*<([^>]+)>.*");
   std::smatch part;
@@ -145,7 +170,19 @@ TEST(Arrows, oraclesDeriveEverythingByThemselves) {
   }
 }
 
+TEST(Arrows, firmwareUnitsIncludeOnlyWhatIsBelowThem) {
+  for (const TreeFile& file : tree_files({".h", ".c"})) {
+    if (room_of(file.path) != "firmware") continue;
+    EXPECT_LT(firmware_floor(std::filesystem::path(file.path).stem()), firmware_floors.size()) << file.path;
+    for (const std::string& included : includes_of(file.text))
+      EXPECT_TRUE(firmware_may_include(file.path, included)) << file.path << " includes " << included;
+  }
+}
+
 TEST(Arrows, theTableRefusesWhatItShould) {
+  EXPECT_FALSE(firmware_may_include("firmware/springs.c", "firmware/formulation.h"));
+  EXPECT_FALSE(firmware_may_include("firmware/probe.c", "firmware/static.h"));
+  EXPECT_TRUE(firmware_may_include("firmware/integrator.c", "firmware/formulation.h"));
   EXPECT_EQ(out_of_bounds("tests/support/slow_", {"rtl_model/spec/points.h", "rtl_model/spec/schedule.h"}),
             Rooms{"rtl_model/spec/points.h"});
   EXPECT_EQ(out_of_bounds("tests/other_core/", {"rtl_model/spec/array_spec.h"}),

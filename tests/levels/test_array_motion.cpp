@@ -153,7 +153,7 @@ TEST(ArrayMotion, TakesEveryKeyOfTheMotion) {
   s.probe = {7, 8, 0.25, "all", "acceleration"};
   s.relax = {1e-3, 77, 3};
   s.force.gravity = {1, 2, 3}, s.force.wind = scene::Vector3{10, 20, 30};
-  const hm_motion m = levels::motion_of(s);
+  const hm_step_parameters m = levels::motion_of(s);
   EXPECT_EQ(
       std::vector<double>({m.time_step, m.friction, m.gamma, m.beta, m.acceleration_memory, m.threshold}),
       std::vector<double>({0.1, 0.5, 7, 8, 0.25, 1e-3}));

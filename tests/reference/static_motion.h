@@ -8,7 +8,7 @@ namespace hopmesh::tests {
 /// Relaxed to the end, one expansion a step.
 inline reference::Motion static_motion() {
   reference::Motion motion{};
-  motion.rule = reference::Rule::statics;
+  motion.formulation = &reference::statics;
   motion.mass = motion.time_step = motion.friction = 1;
   motion.force.setZero();
   motion.threshold = 1e-16, motion.max_sweeps = 20000, motion.expansions = 1;

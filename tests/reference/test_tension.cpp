@@ -26,7 +26,7 @@ scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t te
 }
 
 State at_rest(const scene::Mesh& mesh) {
-  State state = initial_state(mesh, Rule::statics);
+  State state = initial_state(mesh, statics);
   for (int step = 0; step < 60; ++step) advance(mesh, static_motion(), one_by_one(state.V.size()), state);
   return state;
 }

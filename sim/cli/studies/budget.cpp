@@ -45,10 +45,6 @@ struct Budget {
   std::vector<study::BudgetAt> rows; ///< where everybody came to
 };
 
-bool is_probe(const levels::Prepared& p) {
-  return p.inputs.scene.motion.formulation == scene::Formulation::probe;
-}
-
 void set_steps(const BudgetOptions& o, levels::Prepared& p) {
   scene::MotionSpec& motion = p.inputs.scene.motion;
   if (o.steps > 0) motion.steps = o.steps;
@@ -92,8 +88,8 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
        "formulation",
        std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
        {}});
-  if (!is_probe(p))
-    chain.push_back({scene.incremental.rule + ", each step solved exactly",
+  if (levels::ExactStep::exists_for(scene))
+    chain.push_back({scene.formulation_name() + ", each step solved exactly",
                      "time step",
                      std::make_shared<levels::ExactStep>(scene, *p.mesh),
                      {}});
@@ -150,7 +146,7 @@ void print(const levels::Prepared& p, const Budget& budget) {
   for (std::size_t k = 0; k + 1 < budget.chain.size(); ++k)
     fmt::print("  {:<22} {}\n  {:<22} less {}\n", budget.chain[k].mends, budget.chain[k].motion, "",
                budget.chain[k + 1].motion);
-  if (is_probe(p))
+  if (!levels::ExactStep::exists_for(p.inputs.scene))
     fmt::print(
         "The probe has no exact step that tends to this physics, so its time step has no part of its own: "
         "formulation\nis all that lies between its rest and the truth.\n");
