@@ -2,7 +2,7 @@
 
 #include "sim/engine/choose.h"
 #include "sim/engine/kernels/fast_plan.h"
-#include "sim/engine/rounding.h"
+#include "sim/engine/overflow.h"
 #include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {

@@ -1,5 +1,7 @@
 #include "sim/engine/plan.h"
 
+#include "sim/engine/division.h"
+
 namespace hopmesh::engine {
 
 Plan::Plan(const spec::ArraySpec& array, const spec::Topology& topology)
@@ -20,6 +22,10 @@ Plan::Plan(const spec::ArraySpec& array, const spec::Topology& topology)
   ratio_up = drive + row - sum;
   scaled_down = sum - drive;
   link_down = state - formats.link.fraction_bits();
+  const auto most_weight = std::uint64_t{1} << (formats.weight.width - 1);
+  const auto most_bias = std::uint64_t{1} << (formats.bias.width - 1);
+  norm_bits = bit_length(((most_taps * most_weight) << weight_up) + (most_bias << bias_up));
+  multiplier_places = norm_bits + reciprocal_bits - 2 - ratio_up;
   one_state = formats.state.one_raw();
   one_drive = formats.drive.one_raw();
   one_link = formats.link.one_raw();

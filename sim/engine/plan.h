@@ -25,6 +25,9 @@ struct Plan {
   int scaled_down;        ///< prescaled: from s to the drive; below zero: up
   int link_down;          ///< from the state to the link
 
+  int norm_bits;         ///< bits of the largest N that codes of these formats can make
+  int multiplier_places; ///< of s times the reciprocal of such an N, behind the drive's last place
+
   std::int64_t one_state, one_drive, one_link;
 };
 

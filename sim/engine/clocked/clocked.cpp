@@ -1,6 +1,6 @@
 #include "sim/engine/clocked/clocked.h"
 
-#include "sim/engine/rounding.h"
+#include "sim/engine/overflow.h"
 #include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {

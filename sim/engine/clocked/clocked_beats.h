@@ -4,6 +4,7 @@
 #include "sim/engine/aligned.h"
 #include "sim/engine/clocked/clocked_layout.h"
 #include "sim/engine/generic/drive_path.h"
+#include "sim/engine/generic/wide_sum.h"
 
 namespace hopmesh::engine {
 
@@ -58,13 +59,14 @@ class ClockedBeats {
   /// Rows [row, row + rows) of the taps; `sums` is that of the first.
   void add(const Taps& taps, std::size_t row, std::size_t rows, std::int64_t* sums) const;
   void add_rounded(const Taps& taps, std::size_t rows, std::int64_t* sums) const;
-  std::int64_t rounded_sum(std::int64_t sum, std::int64_t products) const;
 
   const Plan& plan_;
   const ClockedLayout& layout_;
   const DrivePath path_;
-  const LaneRounding to_state_, to_link_;
-  LaneRounding to_sum_;
+  const WideSum wide_sum_;
+  const Limit sum_limit_;
+  const ShiftRounding to_state_, to_link_;
+  ShiftRounding to_sum_;
   const bool short_;       ///< a product of codes has at most 32 bits
   const bool plain_sums_;  ///< products add up as they are
   const bool narrow_sums_; ///< a rounding accumulator stays within 63 bits

@@ -23,9 +23,9 @@ void add_magnitudes(const std::int32_t* weights, std::size_t stride, std::size_t
 void begin_sums(const std::int32_t* biases, int up, std::size_t rows, std::int64_t* sums);
 /// changes <- Q[R u].
 void pull(const std::int64_t* drives, const std::int32_t* states, std::int64_t one,
-          const LaneRounding& rounding, std::size_t rows, std::int64_t* changes);
+          const ShiftRounding& rounding, std::size_t rows, std::int64_t* changes);
 /// V <- V + Delta V, and its links; returns the largest |Delta V|.
-std::int64_t add_changes(const std::int64_t* changes, const LaneRounding& to_link, std::size_t rows,
+std::int64_t add_changes(const std::int64_t* changes, const ShiftRounding& to_link, std::size_t rows,
                          std::int32_t* states, std::int32_t* links);
 /// inputs[p * stride + place ...] <- what `runs` say of neuron p, from links by row. Writes and reads up to a
 /// block of lanes beyond the end of every run: the later of two places must come later, and a stride have

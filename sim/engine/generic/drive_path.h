@@ -35,10 +35,11 @@ class DrivePath {
   bool multiplies_row_by_row() const;
 
   const Plan& plan_;
-  const int norm_bits_; ///< of the largest N that these formats can make
+  const RoundingRule rule_; ///< of the drive
+  const Limit limit_;
   bool narrow_ = false; ///< s stays within 63 bits on its way to u, and all reciprocals share a point
   bool apart_ = false;  ///< it stays so only if every row keeps a point of its own
-  LaneRounding to_drive_;
+  ShiftRounding to_drive_;
 };
 
 } // namespace hopmesh::engine

@@ -4,7 +4,7 @@
 #include "sim/engine/core.h"
 #include "sim/engine/generic/drive_path.h"
 #include "sim/engine/generic/lanes.h"
-#include "sim/engine/rounding.h"
+#include "sim/engine/generic/wide_sum.h"
 
 #include <cstdlib>
 
@@ -19,8 +19,9 @@ class GenericCore : public Core {
  public:
   GenericCore(const Plan& plan, const Layout& layout)
       : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), path_(plan),
-        to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
-        to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)) {
+        wide_sum_(plan), sum_limit_(plan.formats.accumulator),
+        to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
+        to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)) {
     const std::size_t neurons = layout.slots() * per_cell_;
     first_weight_.assign(1, 0);
     for (std::uint32_t n : layout.neighbours)
@@ -34,9 +35,9 @@ class GenericCore : public Core {
     places_.assign(neurons, 0);
     narrow_sums_ = !plan.exact && plan.sum_up <= 52;
     narrow_bias_ = std::abs(plan.bias_down) <= 30;
-    if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
+    if (narrow_sums_) to_sum_ = shift_rounding(plan.sum_up, plan.formats.accumulator.rounding);
     if (narrow_bias_)
-      to_bias_ = lane_rounding(std::max(plan.bias_down, 0), plan.formats.accumulator.rounding);
+      to_bias_ = shift_rounding(std::max(plan.bias_down, 0), plan.formats.accumulator.rounding);
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
@@ -51,8 +52,7 @@ class GenericCore : public Core {
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
     state_[place(slot, p)] = code;
-    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(
-        round_shift<std::int64_t>(code, plan_.link_down, plan_.formats.link.rounding));
+    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(rounded<std::int64_t>(code, to_link_));
   }
   std::int32_t state(std::size_t slot, std::size_t p) const override { return state_[place(slot, p)]; }
 
@@ -105,8 +105,10 @@ class GenericCore : public Core {
   const Layout& layout_;
   const std::size_t per_cell_;
   const DrivePath path_;
-  const LaneRounding to_state_, to_link_;
-  LaneRounding to_sum_, to_bias_;
+  const WideSum wide_sum_;
+  const Limit sum_limit_;
+  const ShiftRounding to_state_, to_link_;
+  ShiftRounding to_sum_, to_bias_;
   bool narrow_sums_ = false, narrow_bias_ = false; ///< a rounding accumulator stays within 63 bits
   std::vector<std::size_t> first_weight_;          ///< of a block
   AlignedVector<std::int32_t> weight_;             ///< [block][p][tap][lane]
@@ -178,32 +180,25 @@ void GenericCore::sum_exactly(const std::int32_t* w, const std::int32_t* in, std
 }
 
 void GenericCore::begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const {
-  const spec::NumberFormat& f = plan_.formats.accumulator;
   if (narrow_bias_) {
     const std::int64_t up = std::int64_t{1} << std::max(-plan_.bias_down, 0);
     for (std::size_t l = 0; l < L; ++l) sum[l] = bias[l] * up;
     round_lanes(sum, to_bias_);
-    return limit_lanes(sum, f);
+    return limit_lanes(sum, sum_limit_);
   }
-  for (std::size_t l = 0; l < L; ++l)
-    sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+  for (std::size_t l = 0; l < L; ++l) sum[l] = wide_sum_.begin(bias[l]);
 }
 
 // The register is written once a beat, and each time rounded.
 void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                                 const std::int32_t* bias, std::int64_t* sum) const {
-  const spec::NumberFormat& f = plan_.formats.accumulator;
   const auto lanes = static_cast<std::size_t>(plan_.lanes);
   begin_with_loss(bias, sum);
-  if (narrow_sums_) return add_lane_groups(w, in, taps, lanes, plan_.product_up, to_sum_, f, sum);
+  if (narrow_sums_) return add_lane_groups(w, in, taps, lanes, plan_.product_up, to_sum_, sum_limit_, sum);
   for (std::size_t t = 0; t < taps; t += lanes) {
     alignas(64) std::int64_t products[L] = {};
     add_lane_products(w + t * L, in + t * L, std::min(taps - t, lanes), products);
-    for (std::size_t l = 0; l < L; ++l) {
-      const Int128 fine =
-          shifted_up<Int128>(sum[l], plan_.sum_up) + shifted_up<Int128>(products[l], plan_.product_up);
-      sum[l] = limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
-    }
+    for (std::size_t l = 0; l < L; ++l) sum[l] = wide_sum_.add(sum[l], products[l]);
   }
 }
 

@@ -3,8 +3,9 @@
 // instruction sets, and the processor at hand decides at run time.
 #pragma once
 
+#include "sim/engine/rounding.h"
+
 #include <cstddef>
-#include <cstdint>
 
 namespace hopmesh::engine {
 
@@ -17,17 +18,10 @@ struct Source {
   std::uint8_t lane[16];
 };
 
-/// x * 2^-places rounded: add, plus what a negative x and an odd result get, then a floor.
-struct KernelRounding {
-  std::int64_t add = 0, add_if_negative = 0, add_if_odd = 0;
-  int places = 0;
-  bool plain() const { return add_if_negative == 0 && add_if_odd == 0; }
-};
-
-/// A quotient as a floor of doubles: the sign is turned (flip) before and after, and `half` added between.
+/// s 2^ratio_up / N rounded, in doubles: something is added to the dividend, the quotient and where the
+/// dividend is negative, then a floor.
 struct KernelDivision {
-  std::int64_t flip_by_sign = 0, flip_always = 0; ///< 0 or -1
-  double half = 0;
+  double to_dividend = 0, to_dividend_if_negative = 0, to_quotient = 0, to_quotient_if_negative = 0;
   int ratio_up = 0;
 };
 
@@ -52,7 +46,7 @@ struct KernelArgs {
   bool synchronous;
   int bias_up, state_fraction;
   std::int64_t one_drive;
-  KernelRounding drive, state_rounding, link;
+  ShiftRounding drive, state_rounding, link;
   KernelDivision division;
 };
 

@@ -147,6 +147,9 @@ struct Avx2 {
   static Doubles plus(const Doubles& a, const Doubles& b) {
     return both_doubles([&](int h) { return _mm256_add_pd(a.half[h], b.half[h]); });
   }
+  static Doubles where(const Longs& mask, const Doubles& x) {
+    return both_doubles([&](int h) { return _mm256_and_pd(_mm256_castsi256_pd(mask.half[h]), x.half[h]); });
+  }
   static Doubles times(const Doubles& a, const Doubles& b) {
     return both_doubles([&](int h) { return _mm256_mul_pd(a.half[h], b.half[h]); });
   }
