@@ -1,11 +1,5 @@
 #include "sim/cli/options.h"
 
-#include "rtl_model/spec/array_rules.h"
-#include "sim/cli/engine_port.h"
-#include "sim/cli/progress.h"
-#include "sim/cli/rival_motion.h"
-#include "sim/cli/systemc_port.h"
-#include "sim/engine/choose.h"
 #include "sim/study/study_points.h"
 
 #include <algorithm>
@@ -44,9 +38,11 @@ std::string default_folder(std::string name) {
 
 void add_common(CLI::App& verb, CommonOptions& options) {
   verb.add_option("SCENE", options.scene, "a scene file, or the name of a shipped scene")->required();
-  verb.add_option("--array", options.array, "an array file, or the name of a preset");
+  verb.add_option("--array", options.array, "an array file, or the name of a preset")
+      ->group("Scene and array");
   verb.add_option("--set", options.overrides, "key.path=value: overrides a key of the scene or the array")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group("Scene and array");
 }
 
 std::string shell_word(const std::string& word) {
@@ -60,72 +56,14 @@ std::string words_of(const CommonOptions& options) {
   return words;
 }
 
-Prepared prepare(const CommonOptions& options) {
-  Prepared p{scene::read_inputs(options.scene, options.array, options.overrides), nullptr};
-  p.mesh = std::make_unique<study::BuiltMesh>(p.inputs.scene);
-  if (const auto fault = spec::validate(p.inputs.array, p.mesh->topology().most_taps()))
-    throw scene::input_error(options.array, 0, fault->key, fault->found, fault->expected);
-  return p;
+levels::Prepared prepare(const CommonOptions& options) {
+  return levels::prepare(options.scene, options.array, options.overrides);
 }
 
-const std::vector<std::string>& level_names() {
-  static const std::vector<std::string> names{"reference", "engine", "systemc", "systemc-clock"};
-  return names;
-}
-
-namespace {
-
-std::unique_ptr<study::ArrayPort> make_engine(const spec::ArraySpec& array, const spec::Topology& topology,
-                                              const PortRequest& request) {
-  engine::Options useful = request.engine;
-  useful.threads = engine::useful_threads(topology, useful.threads);
-  auto port = std::make_unique<EnginePort>(array, topology, useful, request.wave, stop_requested);
-  const std::string why = port->engine().why_no_kernel();
-  if (!why.empty() && !request.quiet)
-    fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
-  return port;
-}
-
-} // namespace
-
-std::unique_ptr<study::ArrayPort> make_port(const std::string& name, const spec::ArraySpec& array,
-                                            const spec::Topology& topology, const PortRequest& request) {
-  if (name == "engine") return make_engine(array, topology, request);
-  const auto waking = name == "systemc" ? systemc::Waking::by_phase : systemc::Waking::by_clock;
-  return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
-                                       request.wave, stop_requested);
-}
-
-std::vector<std::string> method_names() {
-  std::vector<std::string> names = level_names();
-  names.insert(names.end(), rivals::names().begin(), rivals::names().end());
-  return names;
-}
-
-void check_level(const std::string& name, const std::string& flag, const std::vector<std::string>& names) {
+void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw scene::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
-                             scene::nearest_name(name, names));
-}
-
-Level make_level(const std::string& name, const Prepared& p, bool check, const PortRequest& request) {
-  Level level;
-  level.name = name;
-  const spec::ArraySpec& array = p.inputs.array;
-  if (name == "reference") {
-    level.motion = std::make_unique<study::ReferenceMotion>(p.inputs.scene, *p.mesh, array);
-    return level;
-  }
-  const auto& rivals = rivals::names();
-  if (std::find(rivals.begin(), rivals.end(), name) != rivals.end()) {
-    level.motion = std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
-    return level;
-  }
-  level.port = make_port(name, array, p.mesh->topology(), request);
-  auto motion = std::make_unique<study::ArrayMotion>(p.inputs.scene, *p.mesh, array, *level.port, check);
-  level.array = motion.get();
-  level.motion = std::move(motion);
-  return level;
+    throw input::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
+                             input::nearest_name(name, names));
 }
 
 } // namespace hopmesh::cli

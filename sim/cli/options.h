@@ -1,11 +1,7 @@
-// What the verbs have in common: scene, array, overrides, levels; and one function a verb.
+// What the verbs have in common: exit codes, the scene with its array and overrides, checks of flags.
 #pragma once
 
-#include "sim/cli/wave_request.h"
-#include "sim/engine/engine.h"
-#include "sim/scene/scene_file.h"
-#include "sim/study/array_motion.h"
-#include "sim/study/reference_motion.h"
+#include "sim/levels/prepared.h"
 
 #include <CLI/CLI.hpp>
 
@@ -35,55 +31,12 @@ CLI::Validator positive_number();
 /// out/NAME; a slash in a name must not lead elsewhere.
 std::string default_folder(std::string name);
 
-/// Reads and checks everything, the array's rules for this very mesh included. Throws scene::InputError.
-struct Prepared {
-  scene::Inputs inputs;
-  std::unique_ptr<study::BuiltMesh> mesh;
-};
-Prepared prepare(const CommonOptions& options);
+/// Reads and checks everything, the array's rules for this very mesh included. Throws input::InputError.
+levels::Prepared prepare(const CommonOptions& options);
 
-/// A level made ready to move a mesh. `array` and `port` are null for the reference.
-struct Level {
-  std::string name;
-  std::unique_ptr<study::ArrayPort> port;
-  std::unique_ptr<study::Motion> motion;
-  study::ArrayMotion* array = nullptr;
-};
-
-/// What a level's array may be asked beside its bits: a wave, threads (engine).
-struct PortRequest {
-  WaveRequest wave;
-  engine::Options engine;
-  bool quiet = false; ///< no word on what only costs time: a study would say it for each point
-};
-
-/// reference, engine, systemc, systemc-clock.
-const std::vector<std::string>& level_names();
-/// Those and the rivals: everything that can fly a scene.
-std::vector<std::string> method_names();
-/// Throws scene::InputError for a name that is none of `names`; `flag` is where it stood.
-void check_level(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
-/// Throws scene::InputError for a name that no problem has; `where` it stood.
+/// Throws input::InputError for a name that is none of `names`; `flag` is where it stood.
+void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
+/// Throws input::InputError for a name that no problem has; `where` it stood.
 void check_problem(const std::string& name, const std::string& where);
-/// The array of a level that is not the reference. What the engine says about its kernel goes to stderr.
-std::unique_ptr<study::ArrayPort> make_port(const std::string& level, const spec::ArraySpec& array,
-                                            const spec::Topology& topology, const PortRequest& request);
-/// A level or a rival.
-Level make_level(const std::string& name, const Prepared& prepared, bool check, const PortRequest& request);
-
-void add_run(CLI::App& program, int& exit_code);
-void add_compare(CLI::App& program, int& exit_code);
-void add_network(CLI::App& program, int& exit_code);
-void add_solvers(CLI::App& program, int& exit_code);
-void add_info(CLI::App& program, int& exit_code);
-void add_vectors(CLI::App& program, int& exit_code);
-void add_fuzz(CLI::App& program, int& exit_code);
-void add_sweep(CLI::App& program, int& exit_code);
-void add_chart(CLI::App& program, int& exit_code);
-void add_stability(CLI::App& program, int& exit_code);
-void add_solve(CLI::App& program, int& exit_code);
-void add_problem(CLI::App& program, int& exit_code);
-void add_budget(CLI::App& program, int& exit_code);
-void add_size(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

@@ -74,7 +74,7 @@ int write_whole(const std::filesystem::path& path, const VectorCase& a_case,
 
 void write_finding(const std::filesystem::path& path, const VectorCase& a_case,
                    const std::vector<Contestant>& contestants, const std::vector<std::string>& comments) {
-  record::check_writable(std::filesystem::absolute(path).parent_path(), 1 << 20);
+  files::check_writable(std::filesystem::absolute(path).parent_path(), 1 << 20);
   if (in_child([&] { return write_whole(path, a_case, contestants, comments); }, trial_seconds) == 0) return;
   VectorWriter file(path); // whoever crashes, the case itself is kept
   for (const std::string& line : comments) file.comment(line);

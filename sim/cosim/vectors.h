@@ -1,9 +1,9 @@
 // Test vectors: jobs and their answers, phase by phase, as a text that cores which are not ours can read,
-// fill in and be judged by. docs/vectors.md describes the file.
+// fill in and be judged by. docs/use/test-vectors.md describes the file.
 #pragma once
 
 #include "sim/cosim/divergence.h"
-#include "sim/record/output_file.h"
+#include "sim/files/output_file.h"
 
 #include <fstream>
 #include <optional>
@@ -32,7 +32,7 @@ class VectorWriter {
   void write_job(const VectorCase& a_case);
   void write_answers(const ArrayJob& job, const hm_bus& bus);
 
-  record::OutputFile file_;
+  files::OutputFile file_;
 };
 
 /// One line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.

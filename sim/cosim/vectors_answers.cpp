@@ -1,13 +1,13 @@
 // Lines of answers, as a core filled them in.
 #include "sim/cosim/vectors.h"
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
 
 #include <fmt/format.h>
 #include <sstream>
 
 namespace hopmesh::cosim {
 
-using scene::in_quotes;
+using input::in_quotes;
 
 VectorReader::Words VectorReader::split() const {
   std::istringstream in(text_);
@@ -37,7 +37,7 @@ AnswerLine VectorReader::answer() {
     in_answers_ = false;
     return a;
   }
-  if (w[0] != "fire") fail(in_quotes(text_), shape, scene::nearest_name(w[0], {"fire", "end"}));
+  if (w[0] != "fire") fail(in_quotes(text_), shape, input::nearest_name(w[0], {"fire", "end"}));
   if (w.size() != 4 + phases_[next_phase_].size() || w[1] != std::to_string(next_sweep_) ||
       w[2] != std::to_string(next_phase_))
     fail(in_quotes(text_), shape);

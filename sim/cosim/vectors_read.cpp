@@ -2,9 +2,9 @@
 #include "sim/cosim/vectors.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
+#include "sim/input/whole_file.h"
 #include "sim/scene/limits.h"
-#include "sim/scene/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +14,7 @@
 
 namespace hopmesh::cosim {
 
-using scene::in_quotes;
+using input::in_quotes;
 
 namespace {
 
@@ -33,14 +33,14 @@ VectorReader::VectorReader(const std::string& path) : path_(path), file_(path, s
   const std::string kind = "a file of test vectors";
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw scene::input_error(path, 0, "", "a directory", kind);
+    throw input::input_error(path, 0, "", "a directory", kind);
   if (!file_)
-    throw scene::input_error(path, 0, "", errno == ENOENT ? "no such file" : std::strerror(errno), kind);
+    throw input::input_error(path, 0, "", errno == ENOENT ? "no such file" : std::strerror(errno), kind);
   std::string head(std::strlen(vectors_header), '\0'); // before a line that may be no line at all
   file_.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file_.gcount()));
   line_ = 1;
-  if (head.empty()) throw scene::input_error(path, 0, "", "an empty file", kind);
+  if (head.empty()) throw input::input_error(path, 0, "", "an empty file", kind);
   std::string rest;
   if (head == vectors_header) std::getline(file_, rest);
   if (!rest.empty() && rest.back() == '\r') rest.pop_back();
@@ -51,7 +51,7 @@ VectorReader::VectorReader(const std::string& path) : path_(path), file_(path, s
 
 void VectorReader::fail(const std::string& found, const std::string& expected,
                         const std::string& nearest) const {
-  throw scene::input_error(path_, line_, "", found, expected, nearest);
+  throw input::input_error(path_, line_, "", found, expected, nearest);
 }
 
 // The next line that says something; false at the end.
@@ -69,7 +69,7 @@ bool VectorReader::read_line() {
 VectorReader::Words VectorReader::expect(const std::string& key, const std::string& shape) {
   if (!read_line()) fail("the end of the file", shape);
   Words words = split();
-  if (words[0] != key) fail(in_quotes(text_), shape, scene::nearest_name(words[0], {key}));
+  if (words[0] != key) fail(in_quotes(text_), shape, input::nearest_name(words[0], {key}));
   words.erase(words.begin());
   return words;
 }
@@ -93,7 +93,7 @@ bool VectorReader::next(VectorCase& a_case) {
   if (!read_line()) return false;
   const Words words = split();
   if (words[0] != "case" || words.size() < 2)
-    fail(in_quotes(text_), "case NAME", scene::nearest_name(words[0], {"case"}));
+    fail(in_quotes(text_), "case NAME", input::nearest_name(words[0], {"case"}));
   a_case.name = text_.substr(text_.find(words[1], text_.find("case") + 4));
   key_lines_.clear();
   ArrayJob job;
@@ -146,7 +146,7 @@ void VectorReader::read_array(spec::ArraySpec& a) {
     const Words w = expect(key, shape);
     using Mode = std::remove_reference_t<decltype(target)>;
     const auto mode = w.size() == 1 ? spec::mode_named<Mode>(w[0], names) : std::optional<Mode>();
-    if (!mode) fail(in_quotes(text_), shape, w.empty() ? "" : scene::nearest_name(w[0], valid));
+    if (!mode) fail(in_quotes(text_), shape, w.empty() ? "" : input::nearest_name(w[0], valid));
     target = *mode;
   };
   const auto count = [this](const char* key, int& target) {
@@ -177,7 +177,7 @@ void VectorReader::check_rules(const spec::ArraySpec& array, const spec::Topolog
   if (!fault) return;
   const std::string key = fault->key.substr(fault->key.find('.') + 1);
   for (const auto& [name, line] : key_lines_)
-    if (name == key) throw scene::input_error(path_, line, key, fault->found, fault->expected);
+    if (name == key) throw input::input_error(path_, line, key, fault->found, fault->expected);
   fail(fault->found, fault->expected);
 }
 
@@ -217,7 +217,7 @@ void VectorReader::check_links(const spec::Topology& t, const std::vector<int>& 
     for (std::size_t k = t.first_link[c]; k < t.first_link[c + 1]; ++k) {
       const std::uint32_t other = t.link_to[k];
       if (std::binary_search(begin + t.first_link[other], begin + t.first_link[other + 1], c)) continue;
-      throw scene::input_error(path_, lines[c], "links", fmt::format("cell {} linked to {}", c, other),
+      throw input::input_error(path_, lines[c], "links", fmt::format("cell {} linked to {}", c, other),
                                fmt::format("{} among the neighbours of {} too", c, other));
     }
 }

@@ -1,4 +1,4 @@
-// Codes that leave their format: SystemC's four overflow modes on integers (docs/datapath.md, Q).
+// Codes that leave their format: SystemC's four overflow modes on integers (docs/hardware/datapath.md, Q).
 #pragma once
 
 #include "rtl_model/spec/number_format.h"

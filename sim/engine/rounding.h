@@ -1,4 +1,4 @@
-// The engine's one door for rounding: SystemC's seven modes on integers (docs/datapath.md, Q). Every mode is
+// The engine's one door for rounding: SystemC's seven modes on integers (docs/hardware/datapath.md, Q). Every mode is
 // a floor after the right thing was added, whether bits are shifted out (here) or a quotient is cut
 // (division.h). The kernels read this too, so it includes nothing but integers; kernel_body.h says why.
 #pragma once

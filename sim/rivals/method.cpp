@@ -1,7 +1,7 @@
 // Choosing a rival by name, and what all of them share.
 #include "sim/rivals/methods.h"
 
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ const std::vector<std::pair<std::string, Maker>> makers = {
 constexpr double lost_speed = 1e30;
 
 void expect(bool good, const std::string& key, double found, const std::string& expected) {
-  if (!good) throw scene::input_error("", 0, key, std::to_string(found), expected);
+  if (!good) throw input::input_error("", 0, key, std::to_string(found), expected);
 }
 
 void check(double time_step, const Options& options) {
@@ -77,8 +77,8 @@ std::unique_ptr<Method> make_method(const std::string& name, const Physics& phys
   check(time_step, options);
   for (const auto& [known, maker] : makers)
     if (known == name) return maker(physics, time_step, options);
-  throw scene::input_error("", 0, "method", scene::in_quotes(name), "one of " + list(names()),
-                           scene::nearest_name(name, names()));
+  throw input::input_error("", 0, "method", input::in_quotes(name), "one of " + list(names()),
+                           input::nearest_name(name, names()));
 }
 
 } // namespace hopmesh::rivals

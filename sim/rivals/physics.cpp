@@ -1,7 +1,7 @@
 // The equation of motion: who moves, what pulls.
 #include "sim/rivals/physics.h"
 
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
 #include "sim/scene/scene_reader.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // CVODE around the equation of motion.
 #include "sim/rivals/truth.h"
 
+#include "sim/input/input_error.h"
 #include "sim/rivals/method.h"
-#include "sim/scene/input_error.h"
 
 #include <cmath>
 #include <cvode/cvode.h>
@@ -127,11 +127,11 @@ std::uint64_t Walk::steps() const {
 
 Truth solve(const Physics& physics, const std::vector<double>& times, double rtol) {
   if (!(rtol >= 1e-14 && rtol <= 1e-3))
-    throw scene::input_error("", 0, "rtol", std::to_string(rtol), "1e-14 to 1e-3");
+    throw input::input_error("", 0, "rtol", std::to_string(rtol), "1e-14 to 1e-3");
   double before = 0;
   for (const double time : times) {
     if (!(time >= before && std::isfinite(time)))
-      throw scene::input_error("", 0, "times", std::to_string(time), "ascending times from 0");
+      throw input::input_error("", 0, "times", std::to_string(time), "ascending times from 0");
     before = time;
   }
   Walk adams(physics, Multistep::adams, rtol), bdf(physics, Multistep::bdf, rtol);

@@ -2,9 +2,9 @@
 // vertices).
 #include "sim/scene/obj_file.h"
 
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
+#include "sim/input/whole_file.h"
 #include "sim/scene/limits.h"
-#include "sim/scene/whole_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -46,7 +46,7 @@ class ObjReader {
   explicit ObjReader(const std::string& path) : path_(path) {}
 
   ObjSurface read() {
-    read_lines(read_whole_file(path_, "an OBJ mesh", most_bytes));
+    read_lines(input::read_whole_file(path_, "an OBJ mesh", most_bytes));
     if (first_corner_.empty() && line_ends_.empty())
       fail(0, "no faces (lines \"f ...\")", "an OBJ mesh with at least one, or with lines \"l ...\"");
     first_corner_.push_back(corners_.size());
@@ -60,7 +60,7 @@ class ObjReader {
 
  private:
   [[noreturn]] void fail(int line, const std::string& found, const std::string& expected) const {
-    throw input_error(path_, line, "", found, expected);
+    throw input::input_error(path_, line, "", found, expected);
   }
 
   void read_lines(const std::string& text) {
@@ -94,10 +94,10 @@ class ObjReader {
     double x = 0;
     const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (failure != std::errc() || end != digits.data() + digits.size())
-      fail(line_, word.empty() ? "no " + std::string(name) : in_quotes(word),
+      fail(line_, word.empty() ? "no " + std::string(name) : input::in_quotes(word),
            fmt::format("a number for {}", name));
     if (!(std::abs(x) <= farthest))
-      fail(line_, in_quotes(word), fmt::format("a number within 1e15 for {}", name));
+      fail(line_, input::in_quotes(word), fmt::format("a number within 1e15 for {}", name));
     return x;
   }
 
@@ -145,9 +145,9 @@ class ObjReader {
     if (!texture.empty())
       corner.texture = index(texture, texture_.size(), word);
     else if (second == std::string_view::npos)
-      fail(line_, in_quotes(word), "a texture index after the /");
+      fail(line_, input::in_quotes(word), "a texture index after the /");
     if (second != std::string_view::npos && rest.find('/', second + 1) != std::string_view::npos)
-      fail(line_, in_quotes(word), "at most v/vt/vn");
+      fail(line_, input::in_quotes(word), "at most v/vt/vn");
     return corner;
   }
 
@@ -156,9 +156,9 @@ class ObjReader {
     std::int64_t k = 0;
     const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
     if (failure != std::errc() || end != digits.data() + digits.size() || k == 0)
-      fail(line_, in_quotes(word), "a corner v, v/vt, v//vn or v/vt/vn with indices from 1");
+      fail(line_, input::in_quotes(word), "a corner v, v/vt, v//vn or v/vt/vn with indices from 1");
     if (k < 0 && k + std::int64_t(so_far) < 0)
-      fail(line_, in_quotes(word), fmt::format("at most {} back, that many stand above", so_far));
+      fail(line_, input::in_quotes(word), fmt::format("at most {} back, that many stand above", so_far));
     return k > 0 ? k - 1 : k + std::int64_t(so_far);
   }
 

@@ -52,8 +52,9 @@ void pin_end_of_file_mesh(const Scene& scene, const std::string& end, Mesh& mesh
 
 void pin_name(const Scene& scene, const std::string& name, Mesh& mesh) {
   if (std::find(pin_names.begin(), pin_names.end(), name) == pin_names.end())
-    throw scene_error(scene, "mesh.pinned", in_quotes(name),
-                      "left, right, top, bottom, corners or node numbers", nearest_name(name, pin_names));
+    throw scene_error(scene, "mesh.pinned", input::in_quotes(name),
+                      "left, right, top, bottom, corners or node numbers",
+                      input::nearest_name(name, pin_names));
   if (scene.mesh.grid)
     pin_side_of_grid(*scene.mesh.grid, name, mesh);
   else

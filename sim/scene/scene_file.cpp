@@ -1,9 +1,9 @@
 // Finds the files a run names, deals out its overrides, and reads scene and array.
 #include "sim/scene/scene_file.h"
 
-#include "sim/scene/array_file.h"
+#include "sim/input/array_file.h"
+#include "sim/input/shipped.h"
 #include "sim/scene/scene_reader.h"
-#include "sim/scene/shipped.h"
 
 namespace hopmesh::scene {
 
@@ -20,29 +20,30 @@ bool is_array_key(const std::string& key) {
 
 Inputs read_inputs(const std::string& scene, const std::string& array,
                    const std::vector<std::string>& overrides) {
-  const std::string path = path_of(scene, Shipped::scene);
-  TomlSource source = TomlSource::read(path, "a scene file");
+  const std::string path = input::path_of(scene, input::Shipped::scene);
+  input::TomlSource source = input::TomlSource::read(path, "a scene file");
   Overrides of_array;
   for (const std::string& text : overrides) {
-    auto split = split_override(text);
+    auto split = input::split_override(text);
     if (is_array_key(split.first))
       of_array.push_back(std::move(split));
     else
       override_scene(source, split.first, split.second);
   }
-  return {read_scene(source, path), read_array(array, of_array)};
+  return {read_scene(source, path), input::read_array(array, of_array)};
 }
 
 namespace {
 
-TomlSource placed(const PlacedText& text, const std::string& file) {
-  return TomlSource::of_text(std::string(static_cast<std::size_t>(text.line - 1), '\n') + text.text, file);
+input::TomlSource placed(const PlacedText& text, const std::string& file) {
+  return input::TomlSource::of_text(std::string(static_cast<std::size_t>(text.line - 1), '\n') + text.text,
+                                    file);
 }
 
 } // namespace
 
 Inputs inputs_of(const PlacedText& scene, const PlacedText& array, const std::string& file) {
-  return {read_scene(placed(scene, file), file), array_of(placed(array, file), file)};
+  return {read_scene(placed(scene, file), file), input::array_of(placed(array, file), file)};
 }
 
 } // namespace hopmesh::scene

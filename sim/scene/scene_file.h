@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
 #include "sim/scene/scene.h"
 
 namespace hopmesh::scene {

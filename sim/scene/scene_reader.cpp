@@ -1,7 +1,8 @@
-// Every key of a scene, its range, and the rules between keys. docs/scene.md explains what the keys mean.
+// Every key of a scene, its range, and the rules between keys. docs/use/scene-files.md explains what the keys
+// mean.
 #include "sim/scene/scene_reader.h"
 
-#include "sim/scene/key_reader.h"
+#include "sim/input/key_reader.h"
 #include "sim/scene/limits.h"
 
 #include <filesystem>
@@ -27,28 +28,29 @@ std::string resolved(const std::string& file, const std::string& scene_path, boo
   return fs::absolute(folder / file).lexically_normal().string();
 }
 
-Pin read_pin(const TomlSource& source, const TomlValue& item, const std::string& key) {
-  const std::string expected = one_of(pin_names) + ", or a node number";
+Pin read_pin(const input::TomlSource& source, const input::TomlValue& item, const std::string& key) {
+  const std::string expected = input::one_of(pin_names) + ", or a node number";
   if (const auto* number = item.as<std::int64_t>()) {
     if (*number >= 0) return *number;
   } else if (const auto* name = item.as<std::string>()) {
     for (const std::string& valid : pin_names)
       if (*name == valid) return *name;
-    throw source.error(item, key, expected, nearest_name(*name, pin_names));
+    throw source.error(item, key, expected, input::nearest_name(*name, pin_names));
   }
   throw source.error(item, key, expected);
 }
 
 class SceneReader {
  public:
-  SceneReader(const TomlSource& source, const std::string& path) : source_(source), keys_(source) {
+  SceneReader(const input::TomlSource& source, const std::string& path) : source_(source), keys_(source) {
     scene_.source = path;
     scene_.name = fs::path(path).stem().string();
     for (const auto& [key, value] : source.values()) scene_.lines[key] = value.line;
   }
 
   Scene read() {
-    if (source_.values().empty()) throw input_error(scene_.source, 0, "", "no key at all", "a scene file");
+    if (source_.values().empty())
+      throw input::input_error(scene_.source, 0, "", "no key at all", "a scene file");
     keys_.text("name", scene_.name, "a name in quotes");
     read_shape();
     read_springs();
@@ -68,7 +70,7 @@ class SceneReader {
   }
 
  private:
-  InputError error(const std::string& key, const std::string& expected) const {
+  input::InputError error(const std::string& key, const std::string& expected) const {
     return source_.error(*source_.find(key), key, expected);
   }
 
@@ -77,36 +79,36 @@ class SceneReader {
     Grid grid;
     keys_.integer("mesh.grid.rows", grid.rows, 1, int(most_nodes));
     keys_.integer("mesh.grid.columns", grid.columns, 1, int(most_nodes));
-    keys_.real("mesh.grid.pitch", grid.pitch, above_zero);
-    const TomlValue* table = source_.find("mesh.grid");
-    if (table && table->as<TomlTable>()) mesh.grid = grid;
+    keys_.real("mesh.grid.pitch", grid.pitch, input::above_zero);
+    const input::TomlValue* table = source_.find("mesh.grid");
+    if (table && table->as<input::TomlTable>()) mesh.grid = grid;
     std::string file;
     if (keys_.text("mesh.file", file, "the path of an OBJ file"))
       mesh.file = resolved(file, scene_.source, scene_.lines["mesh.file"] == 0);
-    keys_.real("mesh.scale", mesh.scale, above_zero);
-    keys_.real("mesh.pin_band", mesh.pin_band, zero_to_one);
+    keys_.real("mesh.scale", mesh.scale, input::above_zero);
+    keys_.real("mesh.pin_band", mesh.pin_band, input::zero_to_one);
     keys_.choice("mesh.up", mesh.up, {"x", "y", "z"});
   }
 
   void read_springs() {
     MeshSpec& mesh = scene_.mesh;
     if (mesh.file) mesh.shear = mesh.bend = 0; // the edges of a file are all alike
-    keys_.real("mesh.springs.structural", mesh.structural, from_zero);
-    keys_.real("mesh.springs.shear", mesh.shear, from_zero);
-    keys_.real("mesh.springs.bend", mesh.bend, from_zero);
+    keys_.real("mesh.springs.structural", mesh.structural, input::from_zero);
+    keys_.real("mesh.springs.shear", mesh.shear, input::from_zero);
+    keys_.real("mesh.springs.bend", mesh.bend, input::from_zero);
     std::string law = "linear";
     keys_.choice("mesh.springs.law", law, {"linear", "tension"});
     mesh.law = law == "tension" ? SpringLaw::tension : SpringLaw::linear;
     double floor = 0;
-    if (keys_.real("mesh.springs.floor", floor, above_zero)) mesh.floor = floor;
+    if (keys_.real("mesh.springs.floor", floor, input::above_zero)) mesh.floor = floor;
   }
 
   void read_pins() {
     read_pin_ball();
-    const TomlValue* found = keys_.value("mesh.pinned");
+    const input::TomlValue* found = keys_.value("mesh.pinned");
     if (!found) return;
-    if (const auto* items = found->as<std::vector<TomlValue>>())
-      for (const TomlValue& item : *items)
+    if (const auto* items = found->as<std::vector<input::TomlValue>>())
+      for (const input::TomlValue& item : *items)
         scene_.mesh.pinned.push_back(read_pin(source_, item, "mesh.pinned"));
     else
       scene_.mesh.pinned = {read_pin(source_, *found, "mesh.pinned")};
@@ -115,31 +117,31 @@ class SceneReader {
   void read_pin_ball() {
     PinBall ball;
     keys_.vector("mesh.pin_ball.centre", ball.centre);
-    const bool sized = keys_.real("mesh.pin_ball.radius", ball.radius, above_zero);
-    const TomlValue* table = source_.find("mesh.pin_ball");
-    if (!table || !table->as<TomlTable>()) return;
+    const bool sized = keys_.real("mesh.pin_ball.radius", ball.radius, input::above_zero);
+    const input::TomlValue* table = source_.find("mesh.pin_ball");
+    if (!table || !table->as<input::TomlTable>()) return;
     if (!sized)
-      throw input_error(source_.file_of(table->line), table->line, "mesh.pin_ball", "no radius",
-                        "{ centre = [x, y, z], radius = a length above 0 }");
+      throw input::input_error(source_.file_of(table->line), table->line, "mesh.pin_ball", "no radius",
+                               "{ centre = [x, y, z], radius = a length above 0 }");
     scene_.mesh.pin_ball = ball;
   }
 
   void read_node() {
     MeshSpec& mesh = scene_.mesh;
-    keys_.real("mesh.mass", mesh.mass, above_zero);
+    keys_.real("mesh.mass", mesh.mass, input::above_zero);
     keys_.flag("mesh.planar", mesh.planar);
-    const TomlValue* rest = keys_.value("mesh.rest");
+    const input::TomlValue* rest = keys_.value("mesh.rest");
     if (!rest) return;
     const auto* word = rest->as<std::string>();
     if (word && *word == "natural") return;
-    constexpr Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};
-    if (word) throw source_.error(*rest, "mesh.rest", length.words, nearest_name(*word, {"natural"}));
+    constexpr input::Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};
+    if (word) throw source_.error(*rest, "mesh.rest", length.words, input::nearest_name(*word, {"natural"}));
     mesh.rest = keys_.number(*rest, "mesh.rest", length);
   }
 
   void read_start() {
     Start& start = scene_.mesh.start;
-    keys_.real("mesh.start.shuffle", start.shuffle, from_zero);
+    keys_.real("mesh.start.shuffle", start.shuffle, input::from_zero);
     keys_.integer("mesh.start.seed", start.seed, 0, std::numeric_limits<std::int64_t>::max());
     keys_.vector("mesh.start.velocity", start.velocity);
   }
@@ -149,16 +151,16 @@ class SceneReader {
     std::string formulation = "probe";
     keys_.choice("motion.formulation", formulation, {"probe", "incremental"});
     motion.formulation = formulation == "probe" ? Formulation::probe : Formulation::incremental;
-    keys_.real("motion.time_step", motion.time_step, above_zero);
+    keys_.real("motion.time_step", motion.time_step, input::above_zero);
     keys_.integer("motion.steps", motion.steps, 1, most_count);
-    keys_.real("motion.friction", motion.friction, zero_to_one);
+    keys_.real("motion.friction", motion.friction, input::zero_to_one);
   }
 
   void read_probe() {
     ProbeSpec& probe = scene_.probe;
-    keys_.real("probe.gamma", probe.gamma, from_zero);
-    keys_.real("probe.beta", probe.beta, from_zero);
-    keys_.real("probe.acceleration_memory", probe.acceleration_memory, zero_to_one);
+    keys_.real("probe.gamma", probe.gamma, input::from_zero);
+    keys_.real("probe.beta", probe.beta, input::from_zero);
+    keys_.real("probe.acceleration_memory", probe.acceleration_memory, input::zero_to_one);
     keys_.choice("probe.energy_springs", probe.energy_springs, {"own", "all"});
     keys_.choice("probe.force_on", probe.force_on, {"velocity", "acceleration"});
   }
@@ -168,7 +170,7 @@ class SceneReader {
   }
 
   void read_relax() {
-    keys_.real("relax.threshold", scene_.relax.threshold, from_zero);
+    keys_.real("relax.threshold", scene_.relax.threshold, input::from_zero);
     keys_.integer("relax.max_sweeps", scene_.relax.max_sweeps, 1, most_count);
     keys_.integer("relax.expansions", scene_.relax.expansions, 1, 1000);
   }
@@ -177,20 +179,20 @@ class SceneReader {
     keys_.vector("force.gravity", scene_.force.gravity);
     Vector3 wind{};
     if (keys_.vector("force.wind", wind)) scene_.force.wind = wind;
-    keys_.real("force.drag", scene_.force.drag, from_zero);
+    keys_.real("force.drag", scene_.force.drag, input::from_zero);
     read_image();
   }
 
   void read_image() {
     ImageSpec image;
     const bool named = keys_.text("force.image.file", image.file, "the path of a PGM or PNG picture");
-    keys_.real("force.image.pitch", image.pitch, above_zero);
-    keys_.real("force.image.strength", image.strength, from_zero);
+    keys_.real("force.image.pitch", image.pitch, input::above_zero);
+    keys_.real("force.image.strength", image.strength, input::from_zero);
     keys_.real("force.image.smoothing", image.smoothing, {0.5, 50, "a number of pixels from 0.5 to 50"});
-    const TomlValue* table = source_.find("force.image");
-    if (!named && table && table->as<TomlTable>())
-      throw input_error(source_.file_of(table->line), table->line, "force.image", "no file",
-                        "file = a PGM or PNG picture");
+    const input::TomlValue* table = source_.find("force.image");
+    if (!named && table && table->as<input::TomlTable>())
+      throw input::input_error(source_.file_of(table->line), table->line, "force.image", "no file",
+                               "file = a PGM or PNG picture");
     if (!named) return;
     if (scene_.motion.formulation == Formulation::probe)
       throw error("force.image.file", "formulation = \"incremental\" where an image pulls");
@@ -219,8 +221,8 @@ class SceneReader {
     const MeshSpec& mesh = scene_.mesh;
     if (mesh.grid && mesh.file) throw error("mesh.file", "either mesh.grid or mesh.file, not both");
     if (!mesh.grid && !mesh.file)
-      throw input_error(scene_.source, 0, "mesh", "no shape",
-                        "mesh.grid = { rows, columns, pitch } or mesh.file");
+      throw input::input_error(scene_.source, 0, "mesh", "no shape",
+                               "mesh.grid = { rows, columns, pitch } or mesh.file");
     if (mesh.grid)
       check_grid(*mesh.grid);
     else
@@ -243,14 +245,14 @@ class SceneReader {
       throw error("mesh.springs.bend", "0: edges of a mesh file are structural springs");
   }
 
-  const TomlSource& source_;
-  KeyReader keys_;
+  const input::TomlSource& source_;
+  input::KeyReader keys_;
   Scene scene_;
 };
 
 } // namespace
 
-void override_scene(TomlSource& source, const std::string& key, const std::string& text) {
+void override_scene(input::TomlSource& source, const std::string& key, const std::string& text) {
   if (key == "mesh.file")
     for (const char* of_grid : {"mesh.grid", "mesh.springs.shear", "mesh.springs.bend"})
       source.erase(of_grid);
@@ -259,16 +261,16 @@ void override_scene(TomlSource& source, const std::string& key, const std::strin
   source.set(key, text);
 }
 
-Scene read_scene(const TomlSource& source, const std::string& path) {
+Scene read_scene(const input::TomlSource& source, const std::string& path) {
   return SceneReader(source, path).read();
 }
 
-InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,
-                       const std::string& expected, const std::string& nearest) {
+input::InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,
+                              const std::string& expected, const std::string& nearest) {
   const auto place = scene.lines.find(key);
-  if (place == scene.lines.end()) return input_error(scene.source, 0, key, found, expected, nearest);
-  return input_error(place->second == 0 ? "--set" : scene.source, place->second, key, found, expected,
-                     nearest);
+  if (place == scene.lines.end()) return input::input_error(scene.source, 0, key, found, expected, nearest);
+  return input::input_error(place->second == 0 ? "--set" : scene.source, place->second, key, found, expected,
+                            nearest);
 }
 
 } // namespace hopmesh::scene

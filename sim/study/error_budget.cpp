@@ -5,7 +5,8 @@ namespace hopmesh::study {
 namespace {
 
 // Of the vectors a - b and c - d.
-double product(const Positions& a, const Positions& b, const Positions& c, const Positions& d) {
+double product(const run::Positions& a, const run::Positions& b, const run::Positions& c,
+               const run::Positions& d) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (c[k] - d[k]);
   return sum;
@@ -13,15 +14,15 @@ double product(const Positions& a, const Positions& b, const Positions& c, const
 
 } // namespace
 
-BudgetAt budget_of(const std::vector<const Positions*>& chain) {
-  const Positions &run = *chain.front(), &truth = *chain.back();
+BudgetAt budget_of(const std::vector<const run::Positions*>& chain) {
+  const run::Positions &run = *chain.front(), &truth = *chain.back();
   const double square = product(run, truth, run, truth);
   BudgetAt budget;
-  budget.total = rms_distance(run, truth);
+  budget.total = run::rms_distance(run, truth);
   for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
-    const Positions &before = *chain[k], &after = *chain[k + 1];
+    const run::Positions &before = *chain[k], &after = *chain[k + 1];
     const double along = product(before, after, run, truth);
-    budget.parts.push_back({rms_distance(before, after), square > 0 ? along / square : 0});
+    budget.parts.push_back({run::rms_distance(before, after), square > 0 ? along / square : 0});
   }
   return budget;
 }

@@ -2,7 +2,7 @@
 // which mends one thing of the one before. What two neighbours differ by is that thing's part.
 #pragma once
 
-#include "sim/study/snapshots.h"
+#include "sim/run/snapshots.h"
 
 #include <string>
 
@@ -25,6 +25,6 @@ struct BudgetAt {
 
 /// `chain`: positions at one time, of the run first, of the truth last. Where the run stands on the truth all
 /// shares are 0.
-BudgetAt budget_of(const std::vector<const Positions*>& chain);
+BudgetAt budget_of(const std::vector<const run::Positions*>& chain);
 
 } // namespace hopmesh::study

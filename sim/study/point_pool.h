@@ -8,6 +8,9 @@
 
 namespace hopmesh::study {
 
+/// Exit codes of a child: its work is done, or the user stopped it.
+inline constexpr int child_done = 0, child_stopped = 130;
+
 /// How a child ended. Neither: it left with exit code 0.
 struct ChildEnd {
   int exit_code = 0, signal = 0;

@@ -1,9 +1,9 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/levels/reference_motion.h"
+#include "sim/run/array_info.h"
 #include "sim/scene/frequency.h"
-#include "sim/study/array_info.h"
-#include "sim/study/reference_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,12 @@ namespace hopmesh::study {
 
 namespace {
 
-std::vector<Maybe> distances(const std::vector<Positions>& ours, const std::vector<Positions>& theirs) {
+std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
+                             const std::vector<run::Positions>& theirs) {
   std::vector<Maybe> all(ours.size());
   for (std::size_t k = 0; k < ours.size() && k < theirs.size(); ++k)
-    if (!ours[k].empty() && ours[k].size() == theirs[k].size()) all[k] = rms_distance(ours[k], theirs[k]);
+    if (!ours[k].empty() && ours[k].size() == theirs[k].size())
+      all[k] = run::rms_distance(ours[k], theirs[k]);
   return all;
 }
 
@@ -27,10 +29,11 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
   return count;
 }
 
-void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMesh& mesh, PointRow& row) {
+void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+            PointRow& row) {
   double squares = 0;
   std::vector<double> errors;
-  for (const StepRow& step : result.rows) {
+  for (const levels::StepRow& step : result.rows) {
     row.sweeps += step.sweeps, row.cycles += step.cycles, row.bus_cycles += step.bus_cycles;
     row.largest_strain = std::max(row.largest_strain, step.max_strain);
     if (!step.error) continue;
@@ -45,22 +48,23 @@ void sum_up(const RunResult& result, const scene::Inputs& inputs, const BuiltMes
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
   if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
-  if (row.cycles > 0) row.memory_bits = memory_bits(mesh, inputs.array).total();
+  if (row.cycles > 0) row.memory_bits = run::memory_bits(mesh, inputs.array).total();
 }
 
-void against_reference(const scene::Inputs& inputs, const BuiltMesh& mesh, const std::vector<double>& times,
-                       const Snapshots& ours, const Positions& last, const std::atomic<bool>& stop,
-                       PointRow& row) {
-  ReferenceMotion motion(inputs.scene, mesh, inputs.array);
-  Snapshots theirs(times, inputs.scene.motion.time_step);
-  const RunResult result = simulate(motion, row.steps, {&theirs}, stop);
-  if (result.rows.size() == row.steps) row.position_error = rms_distance(last, motion.positions());
+void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                       const std::vector<double>& times, const run::Snapshots& ours,
+                       const run::Positions& last, const std::atomic<bool>& stop, PointRow& row) {
+  levels::ReferenceMotion motion(inputs.scene, mesh, inputs.array);
+  run::Snapshots theirs(times, inputs.scene.motion.time_step);
+  const run::RunResult result = run::simulate(motion, row.steps, {&theirs}, stop);
+  if (result.rows.size() == row.steps) row.position_error = run::rms_distance(last, motion.positions());
   row.reference_at = distances(ours.at, theirs.at);
 }
 
-StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, const RunResult& result) {
+StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                        const run::RunResult& result) {
   StabilityFacts facts;
-  facts.diverged = result.outcome == Outcome::diverged;
+  facts.diverged = result.outcome == run::Outcome::diverged;
   facts.outputs = mesh.topology().neurons();
   const scene::Scene& scene = inputs.scene;
   facts.friction = scene.motion.friction / (1 + scene.force.drag * scene.motion.time_step);
@@ -71,15 +75,15 @@ StabilityFacts facts_of(const scene::Inputs& inputs, const BuiltMesh& mesh, cons
 
 PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop) {
-  const BuiltMesh mesh(inputs.scene);
+  const levels::BuiltMesh mesh(inputs.scene);
   const auto motion = methods.make(point.method, inputs);
-  Snapshots ours(times, inputs.scene.motion.time_step);
+  run::Snapshots ours(times, inputs.scene.motion.time_step);
   const auto steps = static_cast<std::uint64_t>(inputs.scene.motion.steps);
-  const RunResult result = simulate(*motion, steps, {&ours}, stop);
+  const run::RunResult result = run::simulate(*motion, steps, {&ours}, stop);
   PointRow row;
-  row.status = result.outcome == Outcome::diverged   ? "diverged"
-               : result.outcome == Outcome::finished ? "finished"
-                                                     : "interrupted";
+  row.status = result.outcome == run::Outcome::diverged   ? "diverged"
+               : result.outcome == run::Outcome::finished ? "finished"
+                                                          : "interrupted";
   row.sentence = result.sentence;
   row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);

@@ -1,8 +1,8 @@
 // One point of a study: its settings in, one row of results out. The one place where methods plug in.
 #pragma once
 
+#include "sim/run/snapshots.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/snapshots.h"
 #include "sim/study/stability_class.h"
 
 #include <functional>
@@ -29,8 +29,9 @@ struct Truth {
 struct Methods {
   std::vector<std::string> names;
   /// Asks the reference beside every step, where the method can.
-  std::function<std::shared_ptr<Motion>(const std::string& method, const scene::Inputs& inputs)> make;
-  std::function<Truth(const scene::Inputs& inputs, const BuiltMesh& mesh, const std::vector<double>& times)>
+  std::function<std::shared_ptr<levels::Motion>(const std::string& method, const scene::Inputs& inputs)> make;
+  std::function<Truth(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                      const std::vector<double>& times)>
       truth;
 };
 

@@ -1,7 +1,7 @@
 #include "sim/study/sizing.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/study/array_info.h"
+#include "sim/run/array_info.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ spec::NumberFormat& format_of(spec::Formats& f, std::size_t knob) {
   return *all[knob];
 }
 
-int integer_bits_for(const SignalRange& seen) {
+int integer_bits_for(const levels::SignalRange& seen) {
   const double last_place = std::ldexp(1.0, -seen.format.fraction_bits());
   const double least = static_cast<double>(seen.least) * last_place;
   const double most = static_cast<double>(seen.largest) * last_place;
@@ -34,15 +34,15 @@ int integer_bits_for(const SignalRange& seen) {
 
 } // namespace
 
-Sizing::Sizing(const scene::Inputs& inputs, const BuiltMesh& mesh)
+Sizing::Sizing(const scene::Inputs& inputs, const levels::BuiltMesh& mesh)
     : inputs_(inputs), mesh_(mesh), formats_(inputs.array.formats) {
   if (!inputs.array.exact_accumulator)
-    throw scene::input_error("", 0, "formats.accumulator", inputs.array.formats.accumulator.text(),
+    throw input::input_error("", 0, "formats.accumulator", inputs.array.formats.accumulator.text(),
                              "\"exact\": its width follows from the others");
 }
 
-void Sizing::keep_integer_bits(const std::vector<SignalRange>& seen) {
-  for (const SignalRange& range : seen) {
+void Sizing::keep_integer_bits(const std::vector<levels::SignalRange>& seen) {
+  for (const levels::SignalRange& range : seen) {
     const int needed = integer_bits_for(range);
     if (range.signal == "weight")
       formats_.weight.integer_bits = std::min(formats_.weight.integer_bits, needed);
@@ -116,7 +116,7 @@ scene::Inputs Sizing::inputs_of(const Setting& setting) const {
 
 double Sizing::silicon_bits(const Setting& setting) const {
   const spec::ArraySpec array = array_of(setting);
-  return static_cast<double>(memory_bits(mesh_, array).total() + multiplier_bits(mesh_, array));
+  return static_cast<double>(run::memory_bits(mesh_, array).total() + run::multiplier_bits(mesh_, array));
 }
 
 std::string Sizing::text_of(const Setting& setting, std::size_t knob) const {

@@ -2,9 +2,9 @@
 // reciprocal, then threshold and sweeps of the relaxation, then lanes.
 #pragma once
 
+#include "sim/levels/array_port.h"
+#include "sim/levels/built_mesh.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/array_port.h"
-#include "sim/study/built_mesh.h"
 #include "sim/study/least_setting.h"
 
 namespace hopmesh::study {
@@ -29,10 +29,10 @@ extern const char* const knob_names[knob_count];
 class Sizing {
  public:
   /// `array`: its rounding, normaliser and schedule stay; its accumulator must be exact (InputError).
-  Sizing(const scene::Inputs& inputs, const BuiltMesh& mesh);
+  Sizing(const scene::Inputs& inputs, const levels::BuiltMesh& mesh);
 
   /// Integer bits that the codes seen with the widest setting need, never more than the array had.
-  void keep_integer_bits(const std::vector<SignalRange>& seen);
+  void keep_integer_bits(const std::vector<levels::SignalRange>& seen);
   /// As many bits as an array can have; relaxation and lanes of scene and array.
   Setting widest() const;
   /// Formats: the link never finer than the state, so a state takes the link with it. None below what can be
@@ -53,7 +53,7 @@ class Sizing {
   double threshold_of(const Setting& setting) const;
 
   const scene::Inputs inputs_;
-  const BuiltMesh& mesh_;
+  const levels::BuiltMesh& mesh_;
   spec::Formats formats_; ///< integer bits and modes
 };
 

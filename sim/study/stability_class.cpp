@@ -7,7 +7,7 @@ namespace hopmesh::study {
 
 namespace {
 
-using Rows = std::vector<StepRow>;
+using Rows = std::vector<levels::StepRow>;
 
 /// The mean of a figure over the k-th quarter of the rows, k = 0..3.
 template <typename Figure> double quarter(const Rows& rows, std::size_t k, Figure figure) {
@@ -23,18 +23,18 @@ template <typename Holds> bool mostly(const Rows& rows, Holds holds) {
 }
 
 bool gains_energy(const Rows& rows) {
-  const auto total = [](const StepRow& r) { return r.energy + r.kinetic; };
+  const auto total = [](const levels::StepRow& r) { return r.energy + r.kinetic; };
   return rows.size() >= least_rows && quarter(rows, 3, total) > gain_factor * quarter(rows, 2, total);
 }
 
 bool is_saturated(const Rows& rows, std::size_t outputs) {
-  return mostly(rows, [outputs](const StepRow& r) {
+  return mostly(rows, [outputs](const levels::StepRow& r) {
     return static_cast<double>(r.saturated) > most_of * static_cast<double>(outputs);
   });
 }
 
 bool stalls(const Rows& rows) {
-  return mostly(rows, [](const StepRow& r) {
+  return mostly(rows, [](const levels::StepRow& r) {
     return r.converged && r.sweeps <= stall_sweeps && r.error && r.error->rms_output > stall_error;
   });
 }
@@ -42,9 +42,11 @@ bool stalls(const Rows& rows) {
 // Friction leaves a velocity `friction` a step, an energy its square.
 bool is_over_damped(const Rows& rows, double friction) {
   if (rows.size() < least_rows) return false;
-  const auto kinetic = [](const StepRow& r) { return r.kinetic; };
-  const auto peak = std::max_element(
-      rows.begin(), rows.end(), [](const StepRow& a, const StepRow& b) { return a.kinetic < b.kinetic; });
+  const auto kinetic = [](const levels::StepRow& r) { return r.kinetic; };
+  const auto peak =
+      std::max_element(rows.begin(), rows.end(), [](const levels::StepRow& a, const levels::StepRow& b) {
+        return a.kinetic < b.kinetic;
+      });
   const double left = std::pow(friction, 2.0 * static_cast<double>(rows.end() - peak));
   return peak->kinetic > 0 && quarter(rows, 3, kinetic) < damped_share * left * peak->kinetic;
 }
@@ -52,10 +54,10 @@ bool is_over_damped(const Rows& rows, double friction) {
 } // namespace
 
 Stability classify(const Rows& rows, const StabilityFacts& facts) {
-  const auto unfinished = [](const StepRow& r) { return !r.converged; };
+  const auto unfinished = [](const levels::StepRow& r) { return !r.converged; };
   if (facts.diverged) return Stability::blow_up;
   if (gains_energy(rows)) return Stability::energy_gain;
-  if (mostly(rows, [](const StepRow& r) { return r.alternation > cycle_share; }))
+  if (mostly(rows, [](const levels::StepRow& r) { return r.alternation > cycle_share; }))
     return Stability::limit_cycle;
   if (is_saturated(rows, facts.outputs)) return Stability::saturated;
   if (stalls(rows)) return Stability::lattice_stall;

@@ -1,8 +1,8 @@
 #include "sim/study/study_folder.h"
 
-#include "sim/record/csv.h"
-#include "sim/record/csv_table.h"
-#include "sim/scene/whole_file.h"
+#include "sim/files/csv.h"
+#include "sim/files/csv_table.h"
+#include "sim/input/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void cell(record::CsvWriter& table, const Maybe& value) {
+void cell(files::CsvWriter& table, const Maybe& value) {
   if (value)
     table.cell(*value);
   else
     table.cell("");
 }
 
-void write(record::CsvWriter& table, const Point& point, const PointRow& row) {
+void write(files::CsvWriter& table, const Point& point, const PointRow& row) {
   table.cell(point.number);
   for (const std::string& label : point.labels) table.cell(label);
   table.cell(point.method).cell(row.status).cell(name_of(row.stability));
@@ -34,9 +34,9 @@ void write(record::CsvWriter& table, const Point& point, const PointRow& row) {
 
 } // namespace
 
-std::vector<std::string> result_columns(const scene::Study& study) {
+std::vector<std::string> result_columns(const Study& study) {
   std::vector<std::string> columns{"point"};
-  for (const scene::StudyAxis& axis : study.axes) columns.push_back(axis.name);
+  for (const StudyAxis& axis : study.axes) columns.push_back(axis.name);
   for (const char* name :
        {"method", "status", "class", "output_error", "output_error_median", "position_error"})
     columns.emplace_back(name);
@@ -48,18 +48,18 @@ std::vector<std::string> result_columns(const scene::Study& study) {
   return columns;
 }
 
-StudyFolder::StudyFolder(const scene::Study& study, fs::path folder, std::uint64_t hash, bool alone)
+StudyFolder::StudyFolder(const Study& study, fs::path folder, std::uint64_t hash, bool alone)
     : study_(study), folder_(std::move(folder)) {
-  record::check_writable(folder_, 0);
+  files::check_writable(folder_, 0);
   if (alone) lock_.emplace(folder_);
   const fs::path mark = folder_ / "study.hash";
   const std::string text = fmt::format("{:016x}\n", hash);
   if (!fs::exists(mark)) {
-    record::check_writable(folder_ / "points", 0);
-    record::write_file(folder_ / "study.toml", study.text);
-    record::write_file(mark, text);
-  } else if (scene::read_whole_file(mark.string(), "a study's hash", 1000) != text) {
-    throw scene::input_error(folder_.string(), 0, "--out",
+    files::check_writable(folder_ / "points", 0);
+    files::write_file(folder_ / "study.toml", study.text);
+    files::write_file(mark, text);
+  } else if (input::read_whole_file(mark.string(), "a study's hash", 1000) != text) {
+    throw input::input_error(folder_.string(), 0, "--out",
                              "the results of another study, or of this one before a change",
                              "a folder of its own, or the study as it was (study.toml there)");
   }
@@ -85,7 +85,7 @@ void StudyFolder::keep(const Point& point, const PointRow& row) const {
   full.reference_at.resize(study_.times.size());
   full.truth_at.resize(study_.times.size());
   full.floor_at.resize(study_.times.size());
-  record::CsvWriter table(file_of(point.number), result_columns(study_));
+  files::CsvWriter table(file_of(point.number), result_columns(study_));
   write(table, point, full);
   table.commit();
 }
@@ -93,11 +93,11 @@ void StudyFolder::keep(const Point& point, const PointRow& row) const {
 std::map<std::string, std::size_t> StudyFolder::collect() const {
   std::map<std::string, std::size_t> count;
   const auto columns = result_columns(study_);
-  record::CsvWriter all(folder_ / "results.csv", columns);
+  files::CsvWriter all(folder_ / "results.csv", columns);
   for (std::size_t n = 0; n < study_.combinations(); ++n) {
-    const record::CsvTable one = record::read_csv(file_of(n));
+    const files::CsvTable one = files::read_csv(file_of(n));
     if (one.header != columns || one.rows.size() != 1)
-      throw scene::input_error(file_of(n).string(), 1, "", "no row of this study", "a point's row");
+      throw input::input_error(file_of(n).string(), 1, "", "no row of this study", "a point's row");
     for (const std::string& text : one.rows[0]) all.cell(text);
     all.end_row();
     ++count[one.text(0, "status")];

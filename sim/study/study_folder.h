@@ -1,7 +1,7 @@
 // A study's results folder: a safe file for each finished point, and results.csv made of them in the end.
 #pragma once
 
-#include "sim/record/folder_lock.h"
+#include "sim/files/folder_lock.h"
 #include "sim/study/study_points.h"
 
 namespace hopmesh::study {
@@ -10,7 +10,7 @@ class StudyFolder {
  public:
   /// Takes up what is there. Throws InputError if it belongs to another study, or to this one before it was
   /// changed (`hash`, of check_points). `alone`: lock the folder against other writers.
-  StudyFolder(const scene::Study& study, std::filesystem::path folder, std::uint64_t hash, bool alone);
+  StudyFolder(const Study& study, std::filesystem::path folder, std::uint64_t hash, bool alone);
 
   bool has(std::size_t number) const;
   /// Numbers of the points still to run.
@@ -24,12 +24,12 @@ class StudyFolder {
  private:
   std::filesystem::path file_of(std::size_t number) const;
 
-  const scene::Study& study_;
+  const Study& study_;
   std::filesystem::path folder_;
-  std::optional<record::FolderLock> lock_;
+  std::optional<files::FolderLock> lock_;
 };
 
 /// Columns of results.csv.
-std::vector<std::string> result_columns(const scene::Study& study);
+std::vector<std::string> result_columns(const Study& study);
 
 } // namespace hopmesh::study

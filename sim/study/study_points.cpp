@@ -1,7 +1,7 @@
 #include "sim/study/study_points.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/record/running_check.h"
+#include "sim/files/running_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@ namespace hopmesh::study {
 
 namespace {
 
-std::string command_of(const scene::Study& study, const Point& point) {
+std::string command_of(const Study& study, const Point& point) {
   std::string command = "hopmesh run " + shell_word(study.scene);
   if (!study.array.empty()) command += " --array " + shell_word(study.array);
   for (const std::string& override : point.overrides) command += " --set " + shell_word(override);
@@ -18,8 +18,8 @@ std::string command_of(const scene::Study& study, const Point& point) {
 }
 
 /// The place on each axis that a point stands for.
-std::vector<const scene::AxisPlace*> places_of(const scene::Study& study, std::size_t number) {
-  std::vector<const scene::AxisPlace*> places(study.axes.size());
+std::vector<const AxisPlace*> places_of(const Study& study, std::size_t number) {
+  std::vector<const AxisPlace*> places(study.axes.size());
   for (std::size_t a = study.axes.size(); a-- > 0;) {
     const auto& all = study.axes[a].places;
     places[a] = &all[number % all.size()];
@@ -29,8 +29,7 @@ std::vector<const scene::AxisPlace*> places_of(const scene::Study& study, std::s
 }
 
 /// {AXIS} in a value stands for the label of the point's place on that axis.
-std::string with_labels(std::string text, const scene::Study& study,
-                        const std::vector<const scene::AxisPlace*>& places) {
+std::string with_labels(std::string text, const Study& study, const std::vector<const AxisPlace*>& places) {
   for (std::size_t a = 0; a < places.size(); ++a) {
     const std::string mark = '{' + study.axes[a].name + '}', &label = places[a]->label;
     for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + label.size()))
@@ -40,50 +39,50 @@ std::string with_labels(std::string text, const scene::Study& study,
 }
 
 // "--set: KEY: ..." is told by the study's line that set the key.
-scene::InputError placed(const scene::Study& study, std::size_t number, const std::string& what) {
+input::InputError placed(const Study& study, std::size_t number, const std::string& what) {
   const std::string by_override = "--set: ";
-  if (what.rfind(by_override, 0) != 0) return scene::InputError(what);
+  if (what.rfind(by_override, 0) != 0) return input::InputError(what);
   const std::string rest = what.substr(by_override.size());
-  for (const scene::AxisPlace* place : places_of(study, number))
-    for (const scene::StudySetting& s : place->settings)
+  for (const AxisPlace* place : places_of(study, number))
+    for (const StudySetting& s : place->settings)
       if (rest.rfind(s.key, 0) == 0)
-        return scene::InputError(fmt::format("{}:{}: {}", study.path, s.line, rest));
-  return scene::InputError(study.path + ": " + rest);
+        return input::InputError(fmt::format("{}:{}: {}", study.path, s.line, rest));
+  return input::InputError(study.path + ": " + rest);
 }
 
-void check_method(const scene::Study& study, const std::string& name, int line, const std::string& key,
+void check_method(const Study& study, const std::string& name, int line, const std::string& key,
                   const Methods& methods) {
   if (std::find(methods.names.begin(), methods.names.end(), name) == methods.names.end())
-    throw scene::input_error(study.path, line, key, scene::in_quotes(name),
+    throw input::input_error(study.path, line, key, input::in_quotes(name),
                              fmt::format("{}", fmt::join(methods.names, ", ")),
-                             scene::nearest_name(name, methods.names));
+                             input::nearest_name(name, methods.names));
 }
 
-void check_methods(const scene::Study& study, const Methods& methods) {
+void check_methods(const Study& study, const Methods& methods) {
   for (const std::string& name : study.methods)
     check_method(study, name, study.methods_line, "methods", methods);
-  for (const scene::StudyAxis& axis : study.axes)
-    for (const scene::AxisPlace& place : axis.places)
+  for (const StudyAxis& axis : study.axes)
+    for (const AxisPlace& place : axis.places)
       if (place.method_line > 0)
         check_method(study, place.method, place.method_line, "axes." + axis.name + ".method", methods);
 }
 
-void check_times(const scene::Study& study, const scene::MotionSpec& motion) {
+void check_times(const Study& study, const scene::MotionSpec& motion) {
   for (double time : study.times) {
-    const std::uint64_t step = step_of_time(time, motion.time_step);
+    const std::uint64_t step = run::step_of_time(time, motion.time_step);
     if (step < 1 || step > static_cast<std::uint64_t>(motion.steps))
-      throw scene::input_error(
+      throw input::input_error(
           study.path, study.times_line, "times", fmt::format("{}", time),
           fmt::format("a time within every point's motion; one lasts {} s in steps of {} s",
                       motion.time_step * static_cast<double>(motion.steps), motion.time_step));
   }
 }
 
-void check_point(const scene::Study& study, const Point& point, const scene::Inputs& inputs) {
-  const BuiltMesh mesh(inputs.scene);
+void check_point(const Study& study, const Point& point, const scene::Inputs& inputs) {
+  const levels::BuiltMesh mesh(inputs.scene);
   if (const auto fault = spec::validate(inputs.array, mesh.topology().most_taps()))
     throw placed(study, point.number,
-                 scene::input_error("--set", 0, fault->key, fault->found, fault->expected).what());
+                 input::input_error("--set", 0, fault->key, fault->found, fault->expected).what());
   check_times(study, inputs.scene.motion);
 }
 
@@ -98,15 +97,15 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-Point point_of(const scene::Study& study, std::size_t number) {
+Point point_of(const Study& study, std::size_t number) {
   Point point;
   point.number = number;
   point.method = study.methods[number / (study.combinations() / study.methods.size())];
-  const std::vector<const scene::AxisPlace*> places = places_of(study, number);
-  for (const scene::AxisPlace* place : places) {
+  const std::vector<const AxisPlace*> places = places_of(study, number);
+  for (const AxisPlace* place : places) {
     point.labels.push_back(place->label);
     if (!place->method.empty()) point.method = place->method;
-    for (const scene::StudySetting& s : place->settings)
+    for (const StudySetting& s : place->settings)
       point.overrides.push_back(s.key + '=' + with_labels(s.text, study, places));
   }
   if (study.steps > 0) point.overrides.push_back(fmt::format("motion.steps={}", study.steps));
@@ -114,20 +113,20 @@ Point point_of(const scene::Study& study, std::size_t number) {
   return point;
 }
 
-scene::Inputs inputs_of(const scene::Study& study, const Point& point) {
+scene::Inputs inputs_of(const Study& study, const Point& point) {
   try {
     return scene::read_inputs(study.scene, study.array, point.overrides);
-  } catch (const scene::InputError& error) {
+  } catch (const input::InputError& error) {
     throw placed(study, point.number, error.what());
   }
 }
 
-std::uint64_t check_points(const scene::Study& study, const Methods& methods) {
+std::uint64_t check_points(const Study& study, const Methods& methods) {
   check_methods(study, methods);
-  record::RunningCheck check;
+  files::RunningCheck check;
   const auto add = [&check](const std::string& text) { check.add(text.data(), text.size() + 1); };
   for (double time : study.times) add(fmt::format("{}", time));
-  for (const scene::StudyAxis& axis : study.axes) add(axis.name);
+  for (const StudyAxis& axis : study.axes) add(axis.name);
   for (std::size_t n = 0; n < study.combinations(); ++n) {
     const Point point = point_of(study, n);
     const scene::Inputs inputs = inputs_of(study, point);

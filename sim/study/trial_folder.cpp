@@ -1,8 +1,8 @@
 #include "sim/study/trial_folder.h"
 
-#include "sim/record/csv.h"
-#include "sim/record/csv_table.h"
-#include "sim/scene/whole_file.h"
+#include "sim/files/csv.h"
+#include "sim/files/csv_table.h"
+#include "sim/input/whole_file.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,22 +16,22 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> columns{"status", "error", "sweeps", "most_sweeps", "cycles", "most_cycles"};
 
-std::uint64_t count(const record::CsvTable& table, const char* name) {
+std::uint64_t count(const files::CsvTable& table, const char* name) {
   return static_cast<std::uint64_t>(table.number(0, name).value_or(0));
 }
 
 } // namespace
 
 TrialFolder::TrialFolder(fs::path folder, std::uint64_t hash) : folder_(std::move(folder)) {
-  record::check_writable(folder_, 0);
+  files::check_writable(folder_, 0);
   lock_.emplace(folder_);
   const fs::path mark = folder_ / "size.hash";
   const std::string text = fmt::format("{:016x}\n", hash);
   if (!fs::exists(mark)) {
-    record::check_writable(folder_ / "trials", 0);
-    record::write_file(mark, text);
-  } else if (scene::read_whole_file(mark.string(), "a search's hash", 1000) != text) {
-    throw scene::input_error(folder_.string(), 0, "--out", "trials of another scene, array or length",
+    files::check_writable(folder_ / "trials", 0);
+    files::write_file(mark, text);
+  } else if (input::read_whole_file(mark.string(), "a search's hash", 1000) != text) {
+    throw input::input_error(folder_.string(), 0, "--out", "trials of another scene, array or length",
                              "a folder of its own");
   }
 }
@@ -43,9 +43,9 @@ fs::path TrialFolder::file_of(const Setting& setting) const {
 std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
   const fs::path file = file_of(setting);
   if (!fs::exists(file)) return std::nullopt;
-  const record::CsvTable table = record::read_csv(file);
+  const files::CsvTable table = files::read_csv(file);
   if (table.header != columns || table.rows.size() != 1)
-    throw scene::input_error(file.string(), 1, "", "no trial", "a trial's row");
+    throw input::input_error(file.string(), 1, "", "no trial", "a trial's row");
   TrialRow row;
   row.status = table.text(0, "status");
   row.error = table.number(0, "error").value_or(HUGE_VAL);
@@ -55,7 +55,7 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
 }
 
 void TrialFolder::keep(const Setting& setting, const TrialRow& row) const {
-  record::CsvWriter table(file_of(setting), columns);
+  files::CsvWriter table(file_of(setting), columns);
   table.cell(row.status).cell(row.error).cell(row.sweeps).cell(row.most_sweeps);
   table.cell(row.cycles).cell(row.most_cycles).end_row();
   table.commit();

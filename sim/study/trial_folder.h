@@ -1,7 +1,7 @@
 // Trials of a search, each in a safe file of its own: a search that was killed finds again what it had tried.
 #pragma once
 
-#include "sim/record/folder_lock.h"
+#include "sim/files/folder_lock.h"
 #include "sim/study/sizing.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ class TrialFolder {
   std::filesystem::path file_of(const Setting& setting) const;
 
   std::filesystem::path folder_;
-  std::optional<record::FolderLock> lock_;
+  std::optional<files::FolderLock> lock_;
 };
 
 } // namespace hopmesh::study

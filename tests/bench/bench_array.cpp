@@ -5,6 +5,8 @@
 #include "tests/bench/flag_network.h"
 #include "tests/bench/sc_fixed_array.h"
 
+#include "place.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <sysc/tracing/sc_tracing_ids.h>
@@ -21,7 +23,7 @@ struct Arrays {
         sc_fixed("sc_fixed", inputs.array, mesh.topology()), steps(inputs.scene, mesh, production) {}
 
   scene::Inputs inputs;
-  study::BuiltMesh mesh;
+  levels::BuiltMesh mesh;
   tests::Dut production;
   ScFixedArray sc_fixed;
   FlagSteps steps;

@@ -1,7 +1,7 @@
 // How fast the engine relaxes flags of any size, and how near that is to what this processor can do at most:
 // streams and multiply-adds of the same kind, measured in the same run.
 #include "sim/reference/reference.h"
-#include "sim/study/reference_check.h"
+#include "sim/levels/reference_check.h"
 #include "tests/bench/clocked_flag.h"
 #include "tests/bench/grid_network.h"
 #include "tests/bench/roofs.h"
@@ -54,9 +54,9 @@ void relax(benchmark::State& state, const GridNetwork& network, const Options& o
 /// The same network of doubles, relaxed by the reference in the same order.
 void relax_reference(benchmark::State& state) {
   const scene::Inputs inputs = scene::read_inputs("flag-400", "", {});
-  const study::BuiltMesh mesh(inputs.scene);
+  const levels::BuiltMesh mesh(inputs.scene);
   const auto motion = reference::motion_of(inputs.scene);
-  const auto order = study::order_for(mesh, inputs.array.schedule);
+  const auto order = levels::order_for(mesh, inputs.array.schedule);
   auto at = reference::initial_state(mesh.mesh());
   for (int k = 0; k < 20; ++k) reference::advance(mesh.mesh(), motion, order, at);
   const auto C = reference::predict(mesh.mesh(), motion, at);

@@ -1,10 +1,12 @@
 // What the host does beside the array, on an array that costs nothing: a step by parts, the files' end, and
 // how time and memory grow to a million nodes. A program of its own without SystemC.
 #include "rtl_model/spec/schedule.h"
-#include "sim/record/output_file.h"
-#include "sim/study/array_motion.h"
-#include "sim/study/run_files.h"
+#include "sim/files/output_file.h"
+#include "sim/levels/array_motion.h"
+#include "sim/run/run_files.h"
 #include "tests/bench/null_array.h"
+
+#include "place.h"
 
 #include <benchmark/benchmark.h>
 
@@ -61,10 +63,10 @@ class HostRun {
   }
 
   void run() {
-    study::ArrayMotion motion(inputs_->scene, *mesh_, inputs_->array, *array_, false);
-    const study::RunFacts facts{*inputs_, "systemc", true, ""};
-    study::RunFiles files(results_folder(), facts, *mesh_, motion);
-    study::RunResult result;
+    levels::ArrayMotion motion(inputs_->scene, *mesh_, inputs_->array, *array_, false);
+    const run::RunFacts facts{*inputs_, &levels::level_named("systemc", ""), ""};
+    run::RunFiles files(results_folder(), facts, *mesh_, motion);
+    run::RunResult result;
     for (std::uint64_t k = 0; k < steps_; ++k) {
       auto began = Clock::now();
       result.rows.push_back(motion.advance());
@@ -86,7 +88,7 @@ class HostRun {
  private:
   const std::uint64_t steps_;
   std::optional<scene::Inputs> inputs_;
-  std::optional<study::BuiltMesh> mesh_;
+  std::optional<levels::BuiltMesh> mesh_;
   std::optional<NullArray> array_;
 };
 

@@ -1,8 +1,10 @@
 #include "tests/bench/bench_networks.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "sim/levels/built_mesh.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/built_mesh.h"
+
+#include "place.h"
 
 #include <stdexcept>
 
@@ -10,7 +12,7 @@ namespace hopmesh::bench {
 namespace {
 
 spec::Topology flag_mesh(const std::vector<std::string>& overrides) {
-  return study::BuiltMesh(
+  return levels::BuiltMesh(
              scene::read_inputs(HOPMESH_SOURCE_DIR "/sim/scenes/flag-400.toml", "", overrides).scene)
       .topology();
 }

@@ -5,6 +5,8 @@
 #include "tests/bench/flag_network.h"
 #include "tests/bench/verilated_flag.h"
 
+#include "place.h"
+
 #include <cstdlib>
 
 namespace hopmesh::bench {
@@ -26,7 +28,7 @@ struct Arrays {
   }
 
   scene::Inputs inputs;
-  study::BuiltMesh mesh;
+  levels::BuiltMesh mesh;
   tests::Dut production;
   FlagSteps steps;
   FlagNetwork network;

@@ -56,9 +56,9 @@ std::int64_t ClockedFlag::step_and_copy(std::uint64_t clocks) {
 }
 
 std::int64_t ClockedFlag::step_and_draw(std::uint64_t clocks) {
-  cli::WaveRequest request;
+  levels::WaveRequest request;
   request.file = "/dev/null";
-  cli::ClockedVcd vcd(request, *engine_, 10000, false);
+  levels::ClockedVcd vcd(request, *engine_, 10000, false);
   vcd.show_all(0);
   for (std::uint64_t cycle = 1; cycle <= clocks; ++cycle) {
     start_if_idle();

@@ -2,7 +2,7 @@
 // same array.
 #pragma once
 
-#include "sim/cli/clocked_vcd.h"
+#include "sim/levels/waves/clocked_vcd.h"
 #include "tests/bench/grid_network.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "tests/bench/flag_steps.h"
 
-#include "sim/study/array_motion.h"
+#include "sim/levels/array_motion.h"
 
 #include <ctime>
 
@@ -12,8 +12,8 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-FlagSteps::FlagSteps(const scene::Scene& scene, const study::BuiltMesh& mesh, tests::Dut& dut)
-    : mesh_(mesh), dut_(dut), motion_(study::motion_of(scene)), buffer_(4096) {
+FlagSteps::FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut)
+    : mesh_(mesh), dut_(dut), motion_(levels::motion_of(scene)), buffer_(4096) {
   bus_.context = this;
   bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
     return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_READ_COMMAND, address, word, 1);

@@ -4,7 +4,7 @@
 
 #include "firmware/driver.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/step_memory.h"
+#include "sim/levels/step_memory.h"
 #include "tests/support/dut.h"
 
 #include <optional>
@@ -22,7 +22,7 @@ struct PartSeconds {
 /// The way of the data without study and record: integrator, driver, bus, device.
 class FlagSteps {
  public:
-  FlagSteps(const scene::Scene& scene, const study::BuiltMesh& mesh, tests::Dut& dut);
+  FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut);
   FlagSteps(const FlagSteps&) = delete;
   FlagSteps& operator=(const FlagSteps&) = delete;
 
@@ -41,12 +41,12 @@ class FlagSteps {
   static int relax(void* self, const hm_mesh* mesh, hm_network* network, double threshold,
                    std::uint32_t max_sweeps, hm_relaxation* result);
 
-  const study::BuiltMesh& mesh_;
+  const levels::BuiltMesh& mesh_;
   tests::Dut& dut_;
   const hm_motion motion_;
   hm_bus bus_{};
   hm_driver driver_{};
-  std::optional<study::StepMemory> memory_; ///< anew at every begin()
+  std::optional<levels::StepMemory> memory_; ///< anew at every begin()
   std::vector<std::uint32_t> buffer_;
   PartSeconds seconds_;
   std::uint64_t sweeps_ = 0, cycles_ = 0;

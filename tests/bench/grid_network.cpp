@@ -2,13 +2,13 @@
 
 #include "firmware/registers.h"
 #include "sim/engine/device.h"
-#include "sim/study/array_motion.h"
+#include "sim/levels/array_motion.h"
 
 namespace hopmesh::bench {
 
 namespace {
 
-struct Port : study::ArrayPort {
+struct Port : levels::ArrayPort {
   Port(const spec::ArraySpec& array, const spec::Topology& topology, const std::atomic<bool>& stop)
       : device(array, topology, {}, stop) {}
   const hm_bus& bus() override { return device.bus(); }
@@ -38,9 +38,9 @@ GridNetwork scene_network(const std::string& scene, int step, const std::string&
                           const std::vector<std::string>& overrides) {
   static const std::atomic<bool> never{false};
   const scene::Inputs inputs = scene::read_inputs(scene, array, overrides);
-  const study::BuiltMesh mesh(inputs.scene);
+  const levels::BuiltMesh mesh(inputs.scene);
   Port port(inputs.array, mesh.topology(), never);
-  study::ArrayMotion motion(inputs.scene, mesh, inputs.array, port, false);
+  levels::ArrayMotion motion(inputs.scene, mesh, inputs.array, port, false);
   for (int k = 0; k <= step; ++k) motion.advance();
   const hm_bus& bus = port.bus();
   return {inputs.array, mesh.topology(), window(bus, HM_WINDOW_WEIGHT, mesh.topology().weight_words()),

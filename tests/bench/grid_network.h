@@ -3,7 +3,7 @@
 
 #include "sim/engine/engine.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/built_mesh.h"
+#include "sim/levels/built_mesh.h"
 
 namespace hopmesh::bench {
 

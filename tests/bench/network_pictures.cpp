@@ -1,8 +1,8 @@
 #include "tests/bench/network_pictures.h"
 
-#include "sim/problems/making.h"
-#include "sim/record/crest.h"
-#include "sim/record/svg_chart.h"
+#include "sim/networks/problems/making.h"
+#include "sim/pictures/crest/crest.h"
+#include "sim/pictures/svg_chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t rows = 25, columns = 40, side = 7, gap = 14;
 
-void draw_panel(record::Picture& picture, std::size_t panel, const std::vector<double>& V) {
+void draw_panel(files::Picture& picture, std::size_t panel, const std::vector<double>& V) {
   const std::size_t left = panel * (columns * side + gap);
   for (std::size_t y = 0; y < rows * side; ++y)
     for (std::size_t x = 0; x < columns * side; ++x) {
@@ -74,7 +74,7 @@ std::string axes() {
 }
 
 std::string drawn(const Curve& curve, std::size_t number) {
-  const char* colour = record::chart_colour(number);
+  const char* colour = pictures::chart_colour(number);
   std::string line, dots;
   for (const auto& point : curve.points) {
     const auto [x, y] = place(point);
@@ -84,7 +84,7 @@ std::string drawn(const Curve& curve, std::size_t number) {
   const double y = top + 18 + 18 * static_cast<double>(number);
   return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='2'/>{}\n"
                      "<rect x='{}' y='{}' width='14' height='4' fill='{}'/><text x='{}' y='{}'>{}</text>\n",
-                     line, colour, dots, left + 16, y - 6, colour, left + 36, y, record::xml(curve.name));
+                     line, colour, dots, left + 16, y - 6, colour, left + 36, y, pictures::xml(curve.name));
 }
 
 std::string svg_of(const std::vector<Curve>& curves) {
@@ -109,12 +109,12 @@ std::string recall_picture(const ProblemRuns& runs) {
   problems::Dice dice(5);
   for (std::size_t i = 0; i < stored.size(); ++i) p.start[i] = dice.unit() < 0.2 ? -stored[i] : stored[i];
   const Solved s = runs.solve(runs.written(p), "engine", "--rule binary");
-  record::Picture picture{static_cast<std::uint32_t>(3 * columns * side + 2 * gap), rows * side, {}};
+  files::Picture picture{static_cast<std::uint32_t>(3 * columns * side + 2 * gap), rows * side, {}};
   picture.rgba.assign(4 * std::size_t{picture.width} * picture.height, 255);
   draw_panel(picture, 0, stored);
   draw_panel(picture, 1, p.start);
   draw_panel(picture, 2, values_of(s.V));
-  return record::encode_png(picture);
+  return files::encode_png(picture);
 }
 
 std::string diagonal_chart(const ProblemRuns& runs) {

@@ -2,7 +2,7 @@
 // with the outputs it was loaded with. What a step takes on it is the host's share alone.
 #pragma once
 
-#include "sim/study/array_port.h"
+#include "sim/levels/array_port.h"
 
 #include <chrono>
 
@@ -16,7 +16,7 @@ struct HostSeconds {
   double motion = 0;    ///< probe and move, until the port is told that the step ended
 };
 
-class NullArray : public study::ArrayPort {
+class NullArray : public levels::ArrayPort {
  public:
   NullArray(const spec::ArraySpec& array, const spec::Topology& topology);
   NullArray(const NullArray&) = delete;

@@ -38,9 +38,9 @@ problems::Problem ProblemRuns::network(const std::string& scene, int step, std::
   const auto out = folder_ / fmt::format("{}-{}", scene, step);
   if (run(fmt::format("network {} --step {} --out '{}'", scene, step, out.string())) != 0)
     throw std::runtime_error("no network of " + p.name);
-  p.W = record::read_matrix((out / "W.mtx").string());
-  p.bias = record::read_vector((out / "bias.mtx").string());
-  p.start = record::read_vector((out / "V0.mtx").string());
+  p.W = files::read_matrix((out / "W.mtx").string());
+  p.bias = files::read_vector((out / "bias.mtx").string());
+  p.start = files::read_vector((out / "V0.mtx").string());
   what = fmt::format("'{0}/W.mtx' '{0}/bias.mtx' --start '{0}/V0.mtx'", out.string());
   return p;
 }
@@ -48,9 +48,9 @@ problems::Problem ProblemRuns::network(const std::string& scene, int step, std::
 std::string ProblemRuns::written(const problems::Problem& p) const {
   const auto out = folder_ / "written";
   std::filesystem::create_directories(out);
-  record::write_matrix(out / "W.mtx", p.W.rows, p.W.columns, p.W.entries);
-  record::write_vector(out / "bias.mtx", p.bias);
-  record::write_vector(out / "V0.mtx", p.start);
+  files::write_matrix(out / "W.mtx", p.W.rows, p.W.columns, p.W.entries);
+  files::write_vector(out / "bias.mtx", p.bias);
+  files::write_vector(out / "V0.mtx", p.start);
   return fmt::format("'{0}/W.mtx' '{0}/bias.mtx' --start '{0}/V0.mtx'", out.string());
 }
 

@@ -1,7 +1,7 @@
 // The program at work on the problem set: what its files say, level by level.
 #pragma once
 
-#include "sim/problems/problem.h"
+#include "sim/networks/problems/problem.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
-// The problem set in one table, for docs/networks.md: the program at every level beside answers that no
-// neuron found, and the pictures of that page. `problem_table PROGRAM FOLDER [pictures|table]`
-#include "sim/record/output_file.h"
+// The problem set in one table, for docs/findings/problem-set.md: the program at every level beside answers
+// that no neuron found, and the pictures of that page. `problem_table PROGRAM FOLDER [pictures|table]`
+#include "sim/files/output_file.h"
 #include "tests/bench/network_pictures.h"
 #include "tests/support/box_solver.h"
 
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder(argv[2]);
   std::filesystem::create_directories(folder);
   const bench::ProblemRuns runs(argv[1], folder);
-  if (part != "table") record::write_file(folder / "recall.png", bench::recall_picture(runs));
-  if (part != "table") record::write_file(folder / "diagonal.svg", bench::diagonal_chart(runs));
+  if (part != "table") files::write_file(folder / "recall.png", bench::recall_picture(runs));
+  if (part != "table") files::write_file(folder / "diagonal.svg", bench::diagonal_chart(runs));
   if (part != "pictures") bench::print_table(runs);
 }

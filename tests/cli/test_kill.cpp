@@ -1,7 +1,7 @@
 // kill -9 at random moments, again and again: no step that was told safe is lost, and in the end every file
 // is that of an unbroken run. 40 kills here; HOPMESH_KILLS=300 in the environment makes the long campaign of
 // it, HOPMESH_SEED=N repeats one.
-#include "sim/study/resume.h"
+#include "sim/run/resume.h"
 #include "tests/cli/resume_test.h"
 
 #include <csignal>
@@ -76,7 +76,7 @@ class CliKill : public CliResume {
       ASSERT_EQ(told, 0u) << "seed " << seed;
       return;
     }
-    const auto found = study::read_run(at("r")); // throws where anything does not fit
+    const auto found = run::read_run(at("r")); // throws where anything does not fit
     ASSERT_GE(found.saved.state.step, told) << "seed " << seed;
     ASSERT_EQ(found.rows.size(), found.saved.state.step);
   }

@@ -3,8 +3,8 @@
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
-#include "sim/scene/input_error.h"
-#include "tests/study/soft_array.h"
+#include "sim/input/input_error.h"
+#include "tests/support/soft_array.h"
 
 #include <csignal>
 #include <gmock/gmock.h>
@@ -123,7 +123,7 @@ TEST_F(CampaignTest, ACrashNamesItsCaseAndShrinksToo) {
   VectorReader reader(file.string());
   VectorCase blank;
   ASSERT_TRUE(reader.next(blank));
-  EXPECT_THROW(reader.answer(), scene::InputError);
+  EXPECT_THROW(reader.answer(), input::InputError);
   std::filesystem::remove(file);
 }
 

@@ -1,6 +1,6 @@
 // Two methods of SUNDIALS that share only the equation of motion, and a closed form.
 #include "sim/rivals/truth.h"
-#include "sim/scene/input_error.h"
+#include "sim/input/input_error.h"
 #include "tests/rivals/meshes.h"
 
 #include <cmath>
@@ -39,16 +39,16 @@ TEST(RivalsTruth, RefusesAStaticScene) {
   scene.incremental.rule = "static";
   EXPECT_NO_THROW(surroundings_of(scene)) << "the rule of a formulation that is not the scene's";
   scene.motion.formulation = scene::Formulation::incremental;
-  EXPECT_THROW(surroundings_of(scene), scene::InputError);
+  EXPECT_THROW(surroundings_of(scene), input::InputError);
 }
 
 TEST(RivalsTruth, RefusesWhatItCannotTell) {
   const scene::Mesh mesh = hanging_weight();
   const Physics physics(mesh, falling);
-  EXPECT_THROW(solve(physics, {1, 0.5}), scene::InputError);
-  EXPECT_THROW(solve(physics, {1}, 0.1), scene::InputError);
-  EXPECT_THROW(make_method("verlet", physics, 0.1), scene::InputError);
-  EXPECT_THROW(make_method("rk4", physics, 0), scene::InputError);
+  EXPECT_THROW(solve(physics, {1, 0.5}), input::InputError);
+  EXPECT_THROW(solve(physics, {1}, 0.1), input::InputError);
+  EXPECT_THROW(make_method("verlet", physics, 0.1), input::InputError);
+  EXPECT_THROW(make_method("rk4", physics, 0), input::InputError);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Descriptions as text: what is written reads back equal, to the last bit of every number.
 #include "rtl_model/spec/array_rules.h"
-#include "sim/scene/shipped.h"
+#include "sim/input/shipped.h"
 #include "tests/scene/scene_files.h"
 
 #include <cmath>
@@ -78,7 +78,7 @@ void expect_equal(const spec::ArraySpec& a, const spec::ArraySpec& b) {
 }
 
 TEST(Text, ofEveryShippedSceneReadsBack) {
-  for (const std::string& name : shipped_names(Shipped::scene)) {
+  for (const std::string& name : input::shipped_names(input::Shipped::scene)) {
     const Scene s = read_inputs(name, "", {}).scene;
     expect_equal(scene_of(scene_text(s)), s);
   }

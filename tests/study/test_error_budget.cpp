@@ -8,7 +8,7 @@
 namespace hopmesh::tests {
 namespace {
 
-using study::Positions;
+using run::Positions;
 
 // One node. Whole: (3, 4, 0), 5 long. First part (3, 0, 0): projection 9/25. Second (0, 5, 0): 20/25.
 // Third (0, -1, 0): -4/25.

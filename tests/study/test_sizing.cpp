@@ -1,8 +1,8 @@
 // What may be lowered on an array: every setting on the way can be built, and means what its words say.
 #include "sim/study/sizing.h"
 
-#include "sim/study/array_info.h"
-#include "tests/study/small_scenes.h"
+#include "sim/run/array_info.h"
+#include "tests/support/small_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,8 @@ namespace hopmesh::tests {
 namespace {
 
 using namespace study;
+using levels::BuiltMesh;
+using run::multiplier_bits;
 
 class SizingTest : public ::testing::Test {
  protected:
@@ -102,7 +104,7 @@ TEST_F(SizingTest, MultiplierBitsByHand) {
 
 TEST_F(SizingTest, AnAccumulatorOfItsOwnIsRefused) {
   inputs.array.exact_accumulator = false;
-  EXPECT_THROW(Sizing(inputs, mesh), scene::InputError);
+  EXPECT_THROW(Sizing(inputs, mesh), input::InputError);
 }
 
 } // namespace

@@ -14,9 +14,9 @@ struct Rows {
   std::vector<double> weight, diagonal;
   double largest = 0;
 
-  Rows(const record::SparseMatrix& W, const std::vector<double>& bias)
+  Rows(const files::SparseMatrix& W, const std::vector<double>& bias)
       : first(W.rows + 1, 0), diagonal(W.rows, 0.0) {
-    for (const record::MatrixEntry& e : W.entries) {
+    for (const files::MatrixEntry& e : W.entries) {
       largest = std::max(largest, std::abs(e.value));
       if (e.row == e.column) {
         diagonal[e.row] = e.value;
@@ -66,7 +66,7 @@ double kkt_of(const Rows& rows, const std::vector<double>& bias, const std::vect
 
 } // namespace
 
-BoxAnswer least_on_box(const record::SparseMatrix& W, const std::vector<double>& bias,
+BoxAnswer least_on_box(const files::SparseMatrix& W, const std::vector<double>& bias,
                        const std::vector<double>& start, double tolerance, std::size_t most_sweeps) {
   const Rows rows(W, bias);
   std::vector<Real> V(start.begin(), start.end());
@@ -84,7 +84,7 @@ BoxAnswer least_on_box(const record::SparseMatrix& W, const std::vector<double>&
 }
 
 // Along a Gray code: a corner differs from the one before it in one output, and so does its energy.
-double least_at_corners(const record::SparseMatrix& W, const std::vector<double>& bias) {
+double least_at_corners(const files::SparseMatrix& W, const std::vector<double>& bias) {
   const Rows rows(W, bias);
   std::vector<double> V(W.rows, -1.0);
   Real energy = energy_of(rows, bias, V), least = energy;

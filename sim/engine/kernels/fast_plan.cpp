@@ -46,7 +46,7 @@ std::string why_no_kernel(const Plan& plan) {
 
 // x / N is added to in units of N / 2 and of 1 / 2 (RoundingRule). The floor of doubles then has a quarter of
 // 1 / N to spare on either side: more than their error, since s and the quotient have few enough bits
-// (docs/engine.md).
+// (docs/hardware/engine.md).
 KernelDivision kernel_division(int ratio_up, spec::Rounding mode) {
   const RoundingRule rule = rounding_rule(mode);
   const auto halves = [](std::int64_t count) { return 0.5 * static_cast<double>(count); };

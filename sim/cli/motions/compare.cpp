@@ -1,0 +1,72 @@
+// hopmesh compare: levels beside each other.
+#include "sim/cosim/compare.h"
+
+#include "sim/cli/options.h"
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
+#include "sim/run/progress.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::cli {
+
+namespace {
+
+struct CompareOptions {
+  CommonOptions common;
+  std::vector<std::string> levels{"reference", "engine", "systemc"};
+  std::int64_t steps = 0;
+};
+
+int compare(CompareOptions& o) {
+  const std::string inputs = words_of(o.common);
+  if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
+  std::vector<const levels::Level*> rows;
+  for (const std::string& name : o.levels)
+    rows.push_back(&levels::level_named(name, "--levels", {levels::Kind::reference, levels::Kind::array}));
+  const levels::Prepared p = prepare(o.common);
+  const auto is_reference = [](const levels::Level* l) { return l->kind == levels::Kind::reference; };
+  std::stable_partition(rows.begin(), rows.end(), is_reference);
+  for (const std::string& level : o.levels)
+    if (std::count(o.levels.begin(), o.levels.end(), level) > 1)
+      throw input::input_error("", 0, "--levels", level + " twice", "each level once");
+  if (o.levels.size() < 2)
+    throw input::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
+  const bool check = is_reference(rows[0]);
+  std::vector<levels::Ready> ready;
+  std::vector<cosim::Contender> contenders;
+  for (const levels::Level* row : rows) ready.push_back(levels::make_ready(*row, p, check, {}));
+  for (auto& level : ready)
+    contenders.push_back({level.level->name, level.motion.get(), level.array, level.port.get()});
+
+  levels::catch_interrupts();
+  cosim::Comparison comparison;
+  {
+    const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
+    run::Progress progress(steps);
+    comparison = cosim::compare(
+        contenders, *p.mesh, p.inputs.array, steps, [&](const levels::StepRow& row) { progress.step(row); },
+        levels::stop_requested);
+  }
+  fmt::print("{}", cosim::text_of(comparison, inputs, p.inputs.array));
+  if (comparison.outcome == run::Outcome::interrupted) return interrupted;
+  return comparison.difference || comparison.outcome == run::Outcome::diverged ? differs : done;
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, int& exit_code) {
+  auto o = std::make_shared<CompareOptions>();
+  CLI::App* verb = program.add_subcommand(
+      "compare", "levels beside each other: bits, cycles, error against the reference");
+  add_common(*verb, o->common);
+  verb->add_option("--levels", o->levels, "two or more of reference, engine, systemc, systemc-clock")
+      ->delimiter(',');
+  verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
+  verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,engine,systemc --steps 10\n"
+               "Exit: 0 fixed levels are equal, 1 they differ or the motion diverged, 2 bad input.");
+  verb->callback([o, &exit_code] { exit_code = compare(*o); });
+}
+
+} // namespace hopmesh::cli

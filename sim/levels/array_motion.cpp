@@ -1,0 +1,167 @@
+#include "sim/levels/array_motion.h"
+
+#include "firmware/registers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace hopmesh::levels {
+
+std::string error_text(int error) {
+  switch (error) {
+  case HM_ERROR_BUS:
+    return "the bus refused a transfer";
+  case HM_ERROR_ID:
+    return "there is no Hopmesh array of this version behind the bus";
+  case HM_ERROR_MESH:
+    return "the array was built for another mesh";
+  case HM_ERROR_NUMBER:
+    return "a weight, a bias or a start value is not finite";
+  case HM_ERROR_BUSY:
+    return "the array was running when it should not";
+  case HM_ERROR_SPACE:
+    return "the driver's buffer is too small";
+  default:
+    return "error " + std::to_string(error);
+  }
+}
+
+namespace {
+
+int rule_named(const std::string& name) {
+  if (name == "static") return HM_STATIC;
+  return name == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+}
+
+} // namespace
+
+hm_motion motion_of(const scene::Scene& scene) {
+  hm_motion m{};
+  m.time_step = scene.motion.time_step;
+  m.friction = scene.motion.friction;
+  m.mass = scene.mesh.mass;
+  m.drag = scene.force.drag;
+  m.rule = HM_PROBE;
+  if (scene.motion.formulation == scene::Formulation::incremental)
+    m.rule = rule_named(scene.incremental.rule);
+  else
+    m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
+  m.gamma = scene.probe.gamma;
+  m.beta = scene.probe.beta;
+  m.acceleration_memory = scene.probe.acceleration_memory;
+  m.energy_of_all_springs = scene.probe.energy_springs == "all";
+  m.force_on_acceleration = scene.probe.force_on == "acceleration";
+  for (std::size_t x = 0; x < 3; ++x)
+    m.force[x] = scene.force.gravity[x] + (scene.force.wind ? (*scene.force.wind)[x] : 0.0);
+  m.threshold = scene.relax.threshold;
+  m.max_sweeps = static_cast<std::uint32_t>(scene.relax.max_sweeps);
+  m.expansions = static_cast<std::uint32_t>(scene.relax.expansions);
+  return m;
+}
+
+ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
+                         ArrayPort& port, bool check)
+    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
+      memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
+  if (scene.force.image) image_.emplace(scene);
+  if (check) check_.emplace(scene, mesh, array);
+}
+
+// The array is looked at with the first step, when every port of the process has been made.
+void ArrayMotion::open() {
+  const int error = hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
+                                   static_cast<std::uint32_t>(buffer_.size()));
+  if (error != HM_OK) throw std::runtime_error(error_text(error));
+}
+
+StepRow ArrayMotion::advance() {
+  if (!driver_.bus) open();
+  const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
+  rest_ = memory_.now.output;
+  if (image_) motion_.node_force = image_->at(memory_.now.position).data();
+  if (check_) check_->begin(state(), motion_.node_force);
+  port_.begin_step(step);
+  const hm_solver solver{&driver_, hm_driver_relax};
+  hm_step_result result;
+  const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
+  if (error == HM_ERROR_STOPPED) {
+    std::copy(rest_.begin(), rest_.end(), memory_.now.output.begin());
+    throw Stopped();
+  }
+  if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
+  if (error != HM_OK && error != HM_ERROR_LOST) throw std::runtime_error(error_text(error));
+  port_.end_step(step);
+  if (error == HM_ERROR_LOST)
+    throw Diverged("node " + std::to_string(result.lost_node) + " has no finite position");
+
+  StepRow row;
+  row.step = step;
+  row.time = static_cast<double>(memory_.state.step) * motion_.time_step;
+  row.sweeps = result.sweeps;
+  row.cycles = result.cycles;
+  row.converged = result.converged;
+  row.clipped = driver_.clipped;
+  row.bus_cycles = bus_cycles() - bus_before;
+  row.saturated = static_cast<std::uint64_t>(std::count_if(
+      memory_.now.output.begin(), memory_.now.output.end(), [](double V) { return std::fabs(V) >= 1; }));
+  measure(mesh_.mesh(), memory_.now.position.data(), memory_.now.velocity.data(), row);
+  if (check_) {
+    using Clock = std::chrono::steady_clock;
+    const auto began = Clock::now();
+    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, row.converged);
+    row.alternation = row.error->alternation;
+    judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
+  }
+  row.hash = state_hash(memory_.now);
+  return row;
+}
+
+std::uint64_t ArrayMotion::bus_cycles() const {
+  const hm_bus& bus = port_.bus();
+  std::uint32_t low = 0, high = 0;
+  bus.read(bus.context, HM_REG_BUS_CYCLES_LO, &low);
+  bus.read(bus.context, HM_REG_BUS_CYCLES_HI, &high);
+  return std::uint64_t{high} << 32 | low;
+}
+
+// Exact: V is a multiple of the state's last place.
+std::vector<std::int32_t> ArrayMotion::raw(const std::vector<double>& outputs) const {
+  std::vector<std::int32_t> codes(outputs.size());
+  hm_codes(outputs.data(), static_cast<std::uint32_t>(outputs.size()),
+           hm_power_of_two(hm_fraction_bits(&driver_.state)), &driver_.state,
+           reinterpret_cast<std::uint32_t*>(codes.data()));
+  return codes;
+}
+
+std::vector<SignalRange> ArrayMotion::ranges() const {
+  auto all = profile_.ranges();
+  for (const SignalRange& range : port_.inner_ranges()) all.push_back(range);
+  for (SignalRange& range : all)
+    for (const SignalRange& before : seen_) {
+      if (before.signal != range.signal) continue;
+      range.least = std::min(range.least, before.least);
+      range.largest = std::max(range.largest, before.largest);
+    }
+  return all;
+}
+
+StepState ArrayMotion::state() const {
+  StepState state = memory_.now;
+  state.step = memory_.state.step;
+  return state;
+}
+
+// Values are copied into place: the firmware's pointers stay what they are.
+void ArrayMotion::restore(const StepState& state, const std::vector<SignalRange>& seen) {
+  const auto from = parts_of(state);
+  const auto to = parts_of(memory_.now);
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    if (from[k].second->size() != to[k].second->size()) throw std::logic_error("the state of another mesh");
+    std::copy(from[k].second->begin(), from[k].second->end(), to[k].second->begin());
+  }
+  memory_.state.step = state.step;
+  seen_ = seen;
+}
+
+} // namespace hopmesh::levels

@@ -1,0 +1,56 @@
+// The way of the data at fixed levels: firmware integrator, driver, bus, array, and back.
+#pragma once
+
+#include "sim/levels/bus_profile.h"
+#include "sim/levels/image_force.h"
+#include "sim/levels/motion.h"
+#include "sim/levels/reference_check.h"
+#include "sim/levels/step_memory.h"
+
+namespace hopmesh::levels {
+
+class ArrayMotion : public Motion {
+ public:
+  /// `check`: ask the reference beside every step.
+  ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array, ArrayPort& port,
+              bool check);
+
+  StepRow advance() override;
+  const std::vector<double>& positions() const override { return memory_.now.position; }
+  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.now.output)); }
+  std::vector<SignalRange> ranges() const override;
+  double judging_seconds() const override { return judging_seconds_; }
+  StepState state() const override;
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
+
+  /// What the last step loaded: start as raw codes [cells * components].
+  std::vector<std::int32_t> start_raw() const { return raw(memory_.start); }
+  std::vector<std::int32_t> rest_raw() const { return raw(memory_.now.output); }
+  const hm_driver& driver() const { return driver_; }
+
+ private:
+  void open();
+  std::uint64_t bus_cycles() const;
+  std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
+
+  const BuiltMesh& mesh_;
+  ArrayPort& port_;
+  BusProfile profile_;
+  std::optional<ReferenceCheck> check_;
+  std::optional<ImageForce> image_;
+  hm_motion motion_{};
+  hm_driver driver_{};
+  StepMemory memory_;
+  std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
+  std::vector<SignalRange> seen_; ///< before restore()
+  std::vector<std::uint32_t> buffer_;
+  double judging_seconds_ = 0;
+};
+
+/// The firmware's motion parameters of a scene; force is gravity plus wind.
+hm_motion motion_of(const scene::Scene& scene);
+
+/// A firmware error as a sentence.
+std::string error_text(int error);
+
+} // namespace hopmesh::levels

@@ -1,0 +1,43 @@
+// The place of an array, whatever it is made of: the firmware sees its bus, the study its figures. Levels
+// plug in here.
+#pragma once
+
+#include "firmware/bus.h"
+#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/topology.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hopmesh::levels {
+
+/// Least and largest raw code that a signal took, and the format it has.
+struct SignalRange {
+  std::string signal;
+  spec::NumberFormat format;
+  std::int64_t least = 0, largest = 0;
+};
+
+class ArrayPort {
+ public:
+  virtual ~ArrayPort() = default;
+  virtual const hm_bus& bus() = 0;
+  /// Called around each step with its number, for waves.
+  virtual void begin_step(std::uint64_t) {}
+  virtual void end_step(std::uint64_t) {}
+  /// After the last step: what is still being written is ended.
+  virtual void finish() {}
+  /// Signals that no bus shows: s and u.
+  virtual std::vector<SignalRange> inner_ranges() const { return {}; }
+  /// What went wrong without touching the results, in one line: a wave that could not be written.
+  virtual std::string trouble() const { return {}; }
+};
+
+/// Makes the array of a level. All ports of a process are made before the first is used (SystemC elaborates
+/// once).
+using PortFactory = std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&)>;
+
+} // namespace hopmesh::levels

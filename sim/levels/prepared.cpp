@@ -1,0 +1,16 @@
+#include "sim/levels/prepared.h"
+
+#include "rtl_model/spec/array_rules.h"
+
+namespace hopmesh::levels {
+
+Prepared prepare(const std::string& scene, const std::string& array,
+                 const std::vector<std::string>& overrides) {
+  Prepared p{scene::read_inputs(scene, array, overrides), nullptr};
+  p.mesh = std::make_unique<BuiltMesh>(p.inputs.scene);
+  if (const auto fault = spec::validate(p.inputs.array, p.mesh->topology().most_taps()))
+    throw input::input_error(array, 0, fault->key, fault->found, fault->expected);
+  return p;
+}
+
+} // namespace hopmesh::levels

@@ -1,0 +1,49 @@
+// Beside every step of an array: the double reference's answer to the very same step.
+#pragma once
+
+#include "sim/levels/motion.h"
+#include "sim/reference/reference.h"
+
+namespace hopmesh::levels {
+
+/// The order in which an array's schedule fires, with the reference's numbering (over all nodes).
+reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
+/// A scene's motion as the output stage of an array makes it.
+reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
+
+/// Where a step starts from, as the reference has it; its V, numbered over all nodes, stays empty.
+reference::State state_of(const StepState& state);
+
+/// Does a network that does not come to rest swing between two states? Of what the next sweep changes, the
+/// share that is still done and undone `swings` later: 1 for ever, 0 for a walk in one direction or a swing
+/// that dies.
+inline constexpr std::uint32_t swings = 20; ///< even
+double alternation(const reference::Network& network, const reference::Order& order,
+                   const reference::Vector& V, reference::Output output = reference::Output::modified);
+
+class ReferenceCheck {
+ public:
+  ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
+
+  /// Before a step: where it starts from, outputs cell by cell; accelerations [3 * nodes] of each node's own,
+  /// or null.
+  void begin(const StepState& state, const double* node_force);
+  /// After it: the network that the firmware built about `start` and the outputs that the array came to.
+  /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
+  /// the incremental formulation, at the array's own scale. `rested`: the array came to rest.
+  ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale,
+                       bool rested) const;
+
+ private:
+  reference::Vector by_node(const std::vector<double>& by_cell) const;
+  /// The same expansion by the reference, from its own prediction; `start` becomes its point.
+  reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
+  double network_difference(const reference::Network& network, const hm_network& built) const;
+
+  const BuiltMesh& mesh_;
+  reference::Motion motion_;
+  const reference::Order order_;
+  reference::State state_;
+};
+
+} // namespace hopmesh::levels

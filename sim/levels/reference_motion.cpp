@@ -1,0 +1,73 @@
+#include "sim/levels/reference_motion.h"
+
+#include "sim/levels/reference_check.h"
+
+#include <cmath>
+
+namespace hopmesh::levels {
+
+ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh,
+                                 const spec::ArraySpec& array)
+    : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
+      state_(reference::initial_state(mesh.mesh(), motion_.rule)),
+      position_(state_.position.data(), state_.position.data() + state_.position.size()) {
+  if (scene.force.image) image_.emplace(scene);
+}
+
+StepRow ReferenceMotion::advance() {
+  if (image_) {
+    const std::vector<double>& pull = image_->at(position_);
+    motion_.node_force =
+        Eigen::Map<const reference::Vector>(pull.data(), static_cast<Eigen::Index>(pull.size()));
+  }
+  reference::State next = state_;
+  last_ = reference::advance(mesh_.mesh(), motion_, order_, next);
+  if (!next.position.allFinite() || !next.velocity.allFinite())
+    throw Diverged("a node has no finite position");
+  state_ = next;
+  position_.assign(state_.position.data(), state_.position.data() + state_.position.size());
+
+  StepRow row;
+  row.step = state_.step - 1;
+  row.time = static_cast<double>(state_.step) * motion_.time_step;
+  row.sweeps = last_.relaxation.sweeps;
+  row.converged = last_.relaxation.converged;
+  if (!row.converged)
+    row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.output);
+  for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
+    row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
+  measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
+  row.hash = state_hash(state());
+  return row;
+}
+
+StepState ReferenceMotion::state() const {
+  const auto values = [](const reference::Vector& v) {
+    return std::vector<double>(v.data(), v.data() + v.size());
+  };
+  return {state_.step,
+          values(state_.position),
+          values(state_.velocity),
+          values(state_.acceleration),
+          values(state_.V),
+          values(state_.previous_position),
+          values(state_.previous_velocity)};
+}
+
+void ReferenceMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
+  const auto copy = [](const std::vector<double>& from, reference::Vector& to) {
+    if (static_cast<Eigen::Index>(from.size()) != to.size())
+      throw std::logic_error("the state of another mesh");
+    std::copy(from.begin(), from.end(), to.data());
+  };
+  state_.step = state.step;
+  copy(state.position, state_.position);
+  copy(state.velocity, state_.velocity);
+  copy(state.acceleration, state_.acceleration);
+  copy(state.output, state_.V);
+  copy(state.previous_position, state_.previous_position);
+  copy(state.previous_velocity, state_.previous_velocity);
+  position_ = state.position;
+}
+
+} // namespace hopmesh::levels

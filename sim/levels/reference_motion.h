@@ -1,0 +1,32 @@
+// The reference as a level: the same steps in double, none of the firmware's arithmetic.
+#pragma once
+
+#include "sim/levels/image_force.h"
+#include "sim/levels/motion.h"
+#include "sim/levels/reference_check.h"
+
+namespace hopmesh::levels {
+
+class ReferenceMotion : public Motion {
+ public:
+  /// Fires in the order of the array, and as its output stage does: its sweeps are comparable.
+  ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
+
+  StepRow advance() override;
+  const std::vector<double>& positions() const override { return position_; }
+  StepState state() const override;
+  void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
+  /// The network of the last step; valid after advance().
+  const reference::Step& last_step() const { return last_; }
+
+ private:
+  const BuiltMesh& mesh_;
+  reference::Motion motion_;
+  std::optional<ImageForce> image_;
+  const reference::Order order_;
+  reference::State state_;
+  reference::Step last_;
+  std::vector<double> position_;
+};
+
+} // namespace hopmesh::levels

@@ -1,0 +1,69 @@
+#include "sim/levels/rival_motion.h"
+
+namespace hopmesh::levels {
+
+namespace {
+
+std::vector<double> values(const rivals::Vector& v) {
+  return {v.data(), v.data() + v.size()};
+}
+
+rivals::State state_of(const std::vector<double>& position, const std::vector<double>& velocity) {
+  const auto vector = [](const std::vector<double>& by_node) {
+    return rivals::by_component(
+        Eigen::Map<const rivals::Vector>(by_node.data(), static_cast<Eigen::Index>(by_node.size())));
+  };
+  return {vector(position), vector(velocity)};
+}
+
+} // namespace
+
+RivalMotion::RivalMotion(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
+    : mesh_(mesh), physics_(mesh.mesh(), rivals::surroundings_of(scene)), time_step_(scene.motion.time_step),
+      method_(rivals::make_method(name, physics_, time_step_)) {
+  keep();
+}
+
+void RivalMotion::keep() {
+  position_ = values(method_->positions());
+  velocity_ = values(method_->velocities());
+}
+
+StepRow RivalMotion::advance() {
+  try {
+    method_->advance();
+  } catch (const rivals::Diverged& lost) {
+    throw Diverged(lost.what());
+  }
+  keep();
+  StepRow row;
+  row.step = step_++;
+  row.time = static_cast<double>(step_) * time_step_;
+  row.converged = true; // an iteration that does not converge has thrown
+  measure(mesh_.mesh(), position_.data(), velocity_.data(), row);
+  row.hash = state_hash(state());
+  return row;
+}
+
+StepState RivalMotion::state() const {
+  StepState s;
+  s.step = step_;
+  s.position = position_;
+  s.velocity = velocity_;
+  if (const rivals::State* before = method_->before()) {
+    s.previous_position = values(rivals::by_node(before->position));
+    s.previous_velocity = values(rivals::by_node(before->velocity));
+  }
+  return s;
+}
+
+void RivalMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
+  if (state.position.size() != position_.size()) throw std::logic_error("the state of another mesh");
+  step_ = state.step;
+  const rivals::State now = state_of(state.position, state.velocity);
+  const rivals::State before = state_of(state.previous_position, state.previous_velocity);
+  method_->go_on_from(now, state.previous_position.empty() ? nullptr : &before);
+  keep();
+}
+
+} // namespace hopmesh::levels

@@ -1,0 +1,68 @@
+#include "sim/levels/waves/wave_request.h"
+
+#include "sim/files/output_file.h"
+#include "sim/input/input_error.h"
+#include "sim/scene/limits.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <regex>
+
+namespace hopmesh::levels {
+
+void parse_window(const std::string& text, WaveRequest& request) {
+  static const std::regex shape(R"((\d{0,18}):(\d{0,18})(c?))");
+  std::smatch part;
+  if (!std::regex_match(text, part, shape))
+    throw input::input_error("", 0, "--wave-window", text, "FROM:TO in steps, or FROM:TOc in cycles");
+  request.first = part[1].length() ? std::stoull(part[1]) : 0;
+  request.last = part[2].length() ? std::stoull(part[2]) : UINT64_MAX;
+  request.in_cycles = part[3].length() > 0;
+  if (request.first >= request.last)
+    throw input::input_error("", 0, "--wave-window", text, "a window that begins before it ends");
+}
+
+std::vector<std::size_t> parse_cells(const std::string& text) {
+  static const std::regex list(R"(\d{1,9}(-\d{1,9})?(,\d{1,9}(-\d{1,9})?)*)"), item(R"((\d+)(?:-(\d+))?)");
+  if (!std::regex_match(text, list))
+    throw input::input_error("", 0, "--wave-cells", text, "cells like 0,4,10-12");
+  std::vector<std::size_t> cells;
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), item); at != std::sregex_iterator(); ++at) {
+    const std::size_t first = std::stoul((*at)[1]), last = (*at)[2].matched ? std::stoul((*at)[2]) : first;
+    if (first > last || last >= static_cast<std::size_t>(scene::most_nodes))
+      throw input::input_error("", 0, "--wave-cells", at->str(), "a rising range of cells that exist");
+    for (std::size_t c = first; c <= last; ++c) cells.push_back(c);
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+void check_wave(const WaveRequest& request, std::size_t cells) {
+  for (std::size_t c : request.cells)
+    if (c >= cells)
+      throw input::input_error("", 0, "--wave-cells", std::to_string(c),
+                               fmt::format("cells below {}", cells));
+  if (std::filesystem::is_directory(request.file))
+    throw input::input_error("", 0, "--wave", "the folder " + request.file, "the name of a file");
+  files::check_writable(std::filesystem::absolute(request.file).parent_path(), 1 << 20);
+}
+
+bool disk_nearly_full(const WaveRequest& request) {
+  constexpr std::uintmax_t least = 64u << 20; // more than a thousand cycles of a large array write
+  std::error_code error;
+  const auto space = std::filesystem::space(std::filesystem::absolute(request.file).parent_path(), error);
+  return !error && space.available < least;
+}
+
+std::string ended_early(const WaveRequest& request) {
+  return request.file + ": the wave ends early, its disk is nearly full (less than 64 MB left)";
+}
+
+void tell_no_wave(const WaveRequest& request) {
+  fmt::print(stderr, "hopmesh: {}: no wave, the run ended before the window began\n", request.file);
+}
+
+} // namespace hopmesh::levels

@@ -1,0 +1,41 @@
+// A level that relaxes a given network: the reference in double, or an array behind the firmware's driver.
+#pragma once
+
+#include "rtl_model/spec/schedule.h"
+#include "sim/levels/array_port.h"
+#include "sim/networks/given_network.h"
+
+#include <memory>
+#include <optional>
+
+namespace hopmesh::networks {
+
+/// How a relaxation ended.
+struct Rest {
+  std::uint32_t sweeps = 0;
+  bool converged = false;
+  std::uint64_t cycles = 0;  ///< of the array; 0 at the reference
+  std::uint32_t clipped = 0; ///< weights and biases that did not fit their format
+};
+
+class NetworkLevel {
+ public:
+  virtual ~NetworkLevel() = default;
+  /// From the start until no output moves by more than `threshold` in a sweep, or so many sweeps. Throws
+  /// Stopped of motion.h where the user stops an array.
+  virtual Rest relax(double threshold, std::uint32_t max_sweeps) = 0;
+  /// Puts the start back.
+  virtual void restart() = 0;
+  /// One more sweep; the largest |change| of an output.
+  virtual double sweep() = 0;
+  virtual const reference::Vector& outputs() const = 0;
+  /// The network as it stands in an array's memories, in units of the one that was given; none where there
+  /// are no memories, or rows were scaled one by one.
+  virtual std::optional<reference::Network> loaded() const { return std::nullopt; }
+};
+
+std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array);
+std::unique_ptr<NetworkLevel> array_level(const GivenNetwork& network, const spec::ArraySpec& array,
+                                          levels::ArrayPort& port);
+
+} // namespace hopmesh::networks

@@ -1,0 +1,57 @@
+#include "sim/networks/solution.h"
+
+#include "sim/files/csv.h"
+#include "sim/levels/motion.h"
+
+namespace hopmesh::networks {
+
+namespace {
+
+constexpr std::uint32_t longest_cycle = 16;
+
+// Outputs that come back have come back to everything that the next sweep depends on.
+std::uint32_t length_of_cycle(NetworkLevel& level, const reference::Vector& V) {
+  for (std::uint32_t k = 1; k <= longest_cycle; ++k) {
+    if (level.sweep() == 0) return 0; // one sweep more was all that rest wanted
+    if (level.outputs() == V) return k;
+  }
+  return 0;
+}
+
+} // namespace
+
+Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
+  Solution solution;
+  solution.rest = level.relax(options.threshold, options.max_sweeps);
+  solution.V = level.outputs();
+  solution.energy_at_start = reference::network_energy(network.network(), network.start());
+  solution.energy = reference::network_energy(network.network(), solution.V);
+  solution.kkt = reference::kkt_violation(network.network(), solution.V);
+  if (!solution.rest.converged) solution.limit_cycle = length_of_cycle(level, solution.V);
+  return solution;
+}
+
+void write_sweeps(const std::filesystem::path& file, const GivenNetwork& network, NetworkLevel& level,
+                  const Solution& solution, const std::atomic<bool>& stop) {
+  const std::optional<reference::Network> loaded = level.loaded();
+  files::CsvWriter table(file, {"sweep", "energy", "loaded_energy", "largest_change"});
+  const auto add = [&](std::uint32_t sweep, double change) {
+    table.cell(sweep).cell(reference::network_energy(network.network(), level.outputs()));
+    if (loaded)
+      table.cell(reference::network_energy(*loaded, level.outputs()));
+    else
+      table.cell("");
+    table.cell(change).end_row();
+  };
+  level.restart();
+  add(0, 0);
+  for (std::uint32_t sweep = 1; sweep <= solution.rest.sweeps; ++sweep) {
+    if (stop) throw levels::Stopped();
+    const double change = level.sweep();
+    add(sweep, change);
+  }
+  if (level.outputs() != solution.V) throw std::logic_error("sweep by sweep the outputs end elsewhere");
+  table.commit();
+}
+
+} // namespace hopmesh::networks

@@ -1,0 +1,42 @@
+// What solving a given network came to, and the files that tell it.
+#pragma once
+
+#include "sim/networks/network_level.h"
+
+#include <atomic>
+#include <filesystem>
+
+namespace hopmesh::networks {
+
+struct SolveOptions {
+  double threshold = 1e-4;
+  std::uint32_t max_sweeps = 10'000;
+};
+
+struct Solution {
+  Rest rest;
+  reference::Vector V;
+  double energy_at_start = 0, energy = 0; ///< -1/2 V'WV - I'V of the network as given
+  double kkt = 0;                         ///< how far a step of s_i / N_i can still move an output
+  std::uint32_t limit_cycle = 0; ///< sweeps after which the very same outputs come again; 0: none found
+};
+
+/// Relaxes; where that does not come to rest, looks whether the outputs go round in a short circle.
+Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options);
+
+/// What was asked, for people and files.
+struct SolveLabel {
+  std::string network, level, rule, schedule, verdict;
+};
+/// The summary in a few lines.
+std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& solution);
+/// V.mtx and summary.json.
+void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
+                    const Solution& solution);
+
+/// Walks the same sweeps again one by one, into solve.csv: sweep, energy, loaded_energy, largest_change.
+/// Throws std::logic_error where they do not end at the solution's outputs.
+void write_sweeps(const std::filesystem::path& file, const GivenNetwork& network, NetworkLevel& level,
+                  const Solution& solution, const std::atomic<bool>& stop);
+
+} // namespace hopmesh::networks

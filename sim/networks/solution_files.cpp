@@ -1,0 +1,48 @@
+// A solution as people read it, and as V.mtx and summary.json.
+#include "sim/files/output_file.h"
+#include "sim/networks/solution.h"
+#include "sim/run/counted.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace hopmesh::networks {
+
+namespace {
+
+std::string ending_of(const Solution& s) {
+  const std::string sweeps = "after " + run::counted(s.rest.sweeps, "sweep");
+  if (s.rest.converged) return "At rest " + sweeps;
+  if (s.limit_cycle > 0) return fmt::format("Not at rest {}: limit cycle of {}", sweeps, s.limit_cycle);
+  return "Not at rest " + sweeps;
+}
+
+} // namespace
+
+std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& s) {
+  std::string text =
+      fmt::format("{}: {}, {}; level {}, {}, {}\n", label.network, run::counted(network.neurons(), "neuron"),
+                  run::counted(network.weights(), "weight"), label.level, label.rule, label.schedule);
+  text += ending_of(s);
+  if (s.rest.cycles > 0) text += fmt::format(", {} cycles", run::grouped(s.rest.cycles));
+  text += fmt::format("\nEnergy {:.9g}, at the start {:.9g}; KKT residual {:.3g}\n", s.energy,
+                      s.energy_at_start, s.kkt);
+  if (s.rest.clipped > 0)
+    text += fmt::format("{} weights and biases did not fit their format\n", run::grouped(s.rest.clipped));
+  if (!label.verdict.empty()) text += label.verdict + '\n';
+  return text;
+}
+
+void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
+                    const Solution& s) {
+  files::write_vector(folder / "V.mtx", std::vector<double>(s.V.data(), s.V.data() + s.V.size()));
+  const nlohmann::ordered_json summary{
+      {"network", label.network},   {"level", label.level},          {"rule", label.rule},
+      {"schedule", label.schedule}, {"neurons", network.neurons()},  {"weights", network.weights()},
+      {"sweeps", s.rest.sweeps},    {"converged", s.rest.converged}, {"limit_cycle", s.limit_cycle},
+      {"cycles", s.rest.cycles},    {"clipped", s.rest.clipped},     {"energy_at_start", s.energy_at_start},
+      {"energy", s.energy},         {"kkt_residual", s.kkt},         {"verdict", label.verdict}};
+  files::write_file(folder / "summary.json", summary.dump(2) + '\n');
+}
+
+} // namespace hopmesh::networks

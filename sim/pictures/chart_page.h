@@ -1,0 +1,11 @@
+// A chart as a page of its own: hovering tells a point's settings, a click keeps its command.
+#pragma once
+
+#include "sim/files/csv_table.h"
+
+namespace hopmesh::pictures {
+
+/// Self-contained HTML; `svg` as svg_of or svg_map makes it, the table below it in full.
+std::string chart_page(const std::string& title, const std::string& svg, const files::CsvTable& table);
+
+} // namespace hopmesh::pictures

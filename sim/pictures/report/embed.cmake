@@ -1,0 +1,12 @@
+# Turns text files into C++ string constants: cmake -DSOURCES="a;b" -DOUTPUT=x.cpp -P embed.cmake
+set(text "// Made by sim/pictures/report/embed.cmake from the files beside it.\n")
+string(APPEND text "#include \"sim/pictures/report_assets.h\"\n\nnamespace hopmesh::pictures {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& report_assets() {\n")
+string(APPEND text "  static const std::map<std::string, std::string> assets{\n")
+foreach(source ${SOURCES})
+  get_filename_component(name ${source} NAME)
+  file(READ ${source} content)
+  string(APPEND text "      {\"${name}\", R\"=====(${content})=====\"},\n")
+endforeach()
+string(APPEND text "  };\n  return assets;\n}\n\n} // namespace hopmesh::pictures\n")
+file(WRITE ${OUTPUT} "${text}")

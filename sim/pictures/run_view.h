@@ -1,0 +1,56 @@
+// What the pictures of a run need: filled by the study, drawn by glTF and report. Plain data, no model behind
+// it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hopmesh::pictures {
+
+/// A corner of a triangle: node, and texture coordinates with (0,0) at the picture's top left.
+struct ViewCorner {
+  std::uint32_t node;
+  float u, v;
+};
+
+struct ViewSpring {
+  std::uint32_t node[2];
+  float rest_length;
+};
+
+/// A series over steps, e.g. {"sweeps", "", {...}}; unit may be empty.
+struct Series {
+  std::string name, unit;
+  std::vector<double> values;
+};
+
+/// A figure with its name and unit, as text ready to read.
+struct Figure {
+  std::string name, value;
+};
+
+struct RunView {
+  std::string title;    ///< scene name
+  std::string subtitle; ///< one line: level, steps, array
+  std::string outcome;  ///< one sentence: done, interrupted or diverged, and why
+  bool good = true;     ///< false: diverged
+  std::size_t nodes = 0;
+  std::vector<bool> pinned;
+  std::vector<std::array<ViewCorner, 3>> triangles;
+  std::vector<ViewSpring> springs;
+  bool crest = true;                      ///< draw our crest on the surface
+  std::string up = "z";                   ///< axis that points up: x, y or z
+  std::vector<std::vector<float>> frames; ///< positions [nodes * 3] of the frames shown
+  std::vector<double> frame_times;        ///< s
+  std::vector<double> frame_steps;
+  std::vector<double> step_times; ///< s, abscissa of the series
+  std::vector<Series> series;     ///< sweeps, cycles, energy, kinetic, max_strain, error_v, ...
+  std::vector<std::pair<std::string, std::vector<Figure>>>
+      tables;           ///< e.g. {"The array", {...}}, {"Speed", {...}}
+  std::string manifest; ///< manifest.json as text
+};
+
+} // namespace hopmesh::pictures

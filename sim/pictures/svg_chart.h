@@ -1,0 +1,48 @@
+// A log-log chart of work against error: ladders of each method, the Pareto front, guides, and what failed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hopmesh::pictures {
+
+struct ChartPoint {
+  double x = 0, y = 0;
+  bool failed = false; ///< x says nothing: drawn hollow at the right edge
+  std::string tip, command;
+};
+
+/// One method (or one place on an axis): a colour. Each ladder is joined by a line.
+struct ChartSeries {
+  std::string name;
+  std::vector<std::vector<ChartPoint>> ladders;
+};
+
+/// A vertical line at an error, e.g. where the truth itself is no better known.
+struct ChartLine {
+  double x = 0;
+  std::string name;
+};
+
+struct Chart {
+  std::string title, x_label, y_label;
+  std::vector<ChartSeries> series;
+  std::vector<ChartLine> lines;
+  bool guides = true;  ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
+  bool curves = false; ///< each ladder is one course: lines that dashes tell apart too, a mark at the end
+                       ///< only, neither front nor guides; the first is drawn heavier
+};
+
+/// Points that no other beats in both x and y, by rising x.
+std::vector<ChartPoint> pareto_front(const std::vector<ChartPoint>& points);
+
+/// Points with an x or y that is not above 0 have no place on a log-log chart and are counted below it.
+std::string svg_of(const Chart& chart);
+
+/// For text and attributes of XML.
+std::string xml(const std::string& text);
+
+/// Colours that stay apart for the colour-blind; they repeat after the sixteenth.
+const char* chart_colour(std::size_t series);
+
+} // namespace hopmesh::pictures

@@ -1,0 +1,212 @@
+#include "sim/run/array_info.h"
+
+#include "rtl_model/spec/schedule.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::run {
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
+    text.insert(static_cast<std::size_t>(at), ",");
+  return text;
+}
+
+namespace {
+
+std::string normaliser_text(const spec::ArraySpec& array) {
+  if (array.output == spec::Output::binary) return "none: only the sign of s counts";
+  const std::string name(name_of(array.normaliser));
+  return spec::has_reciprocal(array) ? fmt::format("{}, {} bits", name, array.reciprocal_bits) : name;
+}
+
+FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
+  const spec::Topology& t = mesh.topology();
+  std::vector<pictures::Figure> rows{
+      {"name", array.name},
+      {"nodes", grouped(mesh.nodes())},
+      {"cells (free nodes)", grouped(t.cells())},
+      {"neurons", fmt::format("{} ({} a cell)", grouped(t.neurons()), t.neurons_per_cell)},
+      {"links between cells", grouped(t.links())},
+      {"inputs of a neuron", fmt::format("at most {}", t.most_taps())},
+      {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
+      {"output stage", std::string(name_of(array.output))},
+      {"normaliser", normaliser_text(array)},
+      {"schedule",
+       fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
+      {"host bus", fmt::format("{} bits", array.bus_bits)},
+      {"clock", fmt::format("{} MHz", array.clock_mhz)},
+  };
+  if (array.schedule == spec::Schedule::coloured)
+    rows[9].value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
+  return {"Array", rows};
+}
+
+FigureTable formats(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Formats& f = array.formats;
+  const auto accumulator = spec::accumulator_format(array, mesh.topology().most_taps());
+  return {"Formats",
+          {{"weight", f.weight.text()},
+           {"bias", f.bias.text()},
+           {"accumulator", accumulator.text() + (array.exact_accumulator ? " (exact)" : "")},
+           {"drive", f.drive.text()},
+           {"state", f.state.text()},
+           {"link", f.link.text()}}};
+}
+
+FigureTable cycles(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
+  const spec::Topology& t = mesh.topology();
+  const spec::CycleModel m = spec::cycle_model(array, t, phases);
+  const auto longest = *std::max_element(m.phase.begin(), m.phase.end());
+  const std::uint64_t load =
+      spec::bus_cycles(array, t.weight_words()) + 2 * spec::bus_cycles(array, t.neurons());
+  return {"Cycles",
+          {{"longest phase", fmt::format("{} = {} accumulate + {} normalise + {} output", longest,
+                                         spec::accumulate_cycles(array, t.most_taps()),
+                                         spec::normalise_cycles(array), spec::output_cycles(array))},
+           {"sweep", grouped(m.sweep)},
+           {"prepare, once a run", grouped(m.prepare)},
+           {"run of n sweeps", fmt::format("{} + {} n", grouped(1 + m.prepare), grouped(m.sweep))},
+           {"time of a sweep", fmt::format("{:.3g} us", static_cast<double>(m.sweep) / array.clock_mhz)},
+           {"load weights, bias, start", grouped(load) + " on the bus"}}};
+}
+
+FigureTable memory(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const auto kib = [](std::uint64_t bits) {
+    return fmt::format("{:.1f} KiB", static_cast<double>(bits) / 8192);
+  };
+  const MemoryBits bits = memory_bits(mesh, array);
+  return {"Memory",
+          {{"weights", kib(bits.weights)},
+           {"biases", kib(bits.biases)},
+           {"states and links", kib(bits.states_and_links)},
+           {"accumulators", kib(bits.accumulators)}}};
+}
+
+std::string formulation(const scene::Scene& scene) {
+  if (scene.motion.formulation == scene::Formulation::probe) return "probe: outputs are directions";
+  return "incremental, " + scene.incremental.rule +
+         (scene.is_static() ? ": outputs are scaled ways towards rest"
+                            : ": outputs are scaled changes of acceleration");
+}
+
+std::string start_text(const scene::Start& start) {
+  const std::string place = start.shuffle > 0
+                                ? fmt::format("up to {} m off its place, seed {}", start.shuffle, start.seed)
+                                : "as built";
+  const scene::Vector3& v = start.velocity;
+  if (v == scene::Vector3{0, 0, 0}) return place + ", at rest";
+  return place + fmt::format(", at ({}, {}, {}) m/s", v[0], v[1], v[2]);
+}
+
+FigureTable motion(const scene::Scene& scene) {
+  return {"Motion",
+          {{"formulation", formulation(scene)},
+           {"steps", fmt::format("{} of {} s", grouped(static_cast<std::uint64_t>(scene.motion.steps)),
+                                 scene.motion.time_step)},
+           {"start", start_text(scene.mesh.start)},
+           {"expansions a step", fmt::format("{}", scene.relax.expansions)},
+           {"relaxed until",
+            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
+                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+}
+
+std::vector<pictures::Figure> forces_left_out(const scene::Scene& scene) {
+  std::vector<pictures::Figure> rows;
+  if (scene.force.gravity == scene::Vector3{0, 0, 0}) rows.push_back({"gravity", "none given"});
+  if (!scene.force.wind) rows.push_back({"wind", "none given"});
+  if (scene.force.drag == 0 && !scene.is_static()) rows.push_back({"drag of the air", "none given"});
+  if (scene.motion.friction == 1 && !scene.is_static()) rows.push_back({"friction", "a factor of 1: none"});
+  return rows;
+}
+
+std::vector<pictures::Figure> terms_left_out(const scene::Scene& scene) {
+  std::vector<pictures::Figure> rows;
+  if (scene.mesh.rest == 0.0)
+    rows.push_back({"error of the expansion", "rest length 0: the energy is quadratic"});
+  if (scene.motion.formulation == scene::Formulation::incremental) {
+    if (scene.is_static())
+      rows.push_back({"inertia, speed", "static: each step minimises springs and weight alone"});
+    else
+      rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
+    if (scene.motion.friction == 0 && !scene.is_static())
+      rows.push_back({"velocity", "friction 0: each step starts from rest"});
+    return rows;
+  }
+  rows.push_back({"inertia", "mass moves no node in the probe"});
+  if (scene.probe.acceleration_memory == 0)
+    rows.push_back({"acceleration before", "memory 0: each step probes anew"});
+  if (scene.probe.beta == 0) rows.push_back({"unit-length term", "beta 0: outputs of any length"});
+  return rows;
+}
+
+FigureTable left_out(const scene::Scene& scene, const levels::BuiltMesh& mesh) {
+  const std::size_t pinned = mesh.nodes() - mesh.cells(), n = mesh.components();
+  std::vector<pictures::Figure> rows;
+  if (pinned)
+    rows.push_back(
+        {"pinned nodes", fmt::format("{}: no cell, {} neurons fewer", grouped(pinned), grouped(pinned * n))});
+  else
+    rows.push_back({"pins", "none given: every node has a cell"});
+  std::size_t to_pinned = 0, among_pinned = 0;
+  for (const auto& s : mesh.mesh().springs) {
+    const int ends = mesh.mesh().pinned[s.node[0]] + mesh.mesh().pinned[s.node[1]];
+    to_pinned += ends == 1;
+    among_pinned += ends == 2;
+  }
+  if (to_pinned)
+    rows.push_back({"springs to pinned nodes", fmt::format("{}: in the bias, no link", grouped(to_pinned))});
+  if (among_pinned)
+    rows.push_back({"springs between pinned nodes", fmt::format("{}: no link", grouped(among_pinned))});
+  const double kinds[] = {scene.mesh.structural, scene.mesh.shear, scene.mesh.bend};
+  const char* names[] = {"structural springs", "shear springs", "bend springs"};
+  for (int k = 0; k < 3; ++k)
+    if (scene.mesh.grid && kinds[k] == 0) rows.push_back({names[k], "weight 0: not built"});
+  if (n == 2) rows.push_back({"third neuron of a cell", "planar: y never moves"});
+  for (const pictures::Figure& row : forces_left_out(scene)) rows.push_back(row);
+  for (const pictures::Figure& row : terms_left_out(scene)) rows.push_back(row);
+  return {"Left out", rows};
+}
+
+} // namespace
+
+MemoryBits memory_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Formats& f = array.formats;
+  const auto width = [](const spec::NumberFormat& format) {
+    return static_cast<std::uint64_t>(format.width);
+  };
+  const std::uint64_t neurons = t.neurons();
+  return {t.weight_words() * width(f.weight), neurons * width(f.bias),
+          neurons * (width(f.state) + width(f.link)),
+          neurons * width(spec::accumulator_format(array, t.most_taps()))};
+}
+
+std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Formats& f = array.formats;
+  int neuron = array.lanes * f.weight.width * f.link.width + f.state.width * f.drive.width;
+  if (array.normaliser == spec::Normaliser::reciprocal)
+    neuron += spec::accumulator_format(array, t.most_taps()).width * array.reciprocal_bits;
+  return t.neurons() * static_cast<std::uint64_t>(neuron);
+}
+
+std::vector<FigureTable> array_info(const scene::Scene& scene, const levels::BuiltMesh& mesh,
+                                    const spec::ArraySpec& array) {
+  const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);
+  return {motion(scene),       shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases),
+          memory(mesh, array), left_out(scene, mesh)};
+}
+
+std::string text_of(const std::vector<FigureTable>& tables) {
+  std::string text;
+  for (const auto& [title, rows] : tables) {
+    text += title + "\n";
+    for (const auto& row : rows) text += fmt::format("  {:<28} {}\n", row.name, row.value);
+  }
+  return text;
+}
+
+} // namespace hopmesh::run

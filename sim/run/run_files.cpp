@@ -1,0 +1,232 @@
+#include "sim/run/run_files.h"
+
+#include "sim/levels/image_force.h"
+#include "sim/pictures/gltf.h"
+#include "sim/pictures/mesh_picture.h"
+#include "sim/pictures/overlay.h"
+#include "sim/pictures/report.h"
+#include "sim/run/array_info.h"
+#include "sim/run/run_picture.h"
+#include "sim/run/step_table.h"
+#include "version.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace hopmesh::run {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Fails before the first step, not after the last: the folder, and room for what will be written there.
+std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts& facts,
+                            const levels::BuiltMesh& mesh, std::uint64_t done) {
+  const std::uint64_t a_step =
+      mesh.nodes() * (24 + (facts.level->has_codes() ? 4 * mesh.components() : 0)) + 300;
+  files::check_writable(folder,
+                        a_step * (static_cast<std::uint64_t>(facts.inputs.scene.motion.steps) - done + 1) +
+                            mesh.nodes() * 8192 + (4u << 20));
+  return folder;
+}
+
+std::optional<files::GreyPicture> image_of(const scene::Scene& scene) {
+  return scene.force.image ? std::optional(levels::picture_of(scene)) : std::nullopt;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+const char* name_of(Outcome outcome) {
+  return outcome == Outcome::finished   ? "finished"
+         : outcome == Outcome::diverged ? "diverged"
+                                        : "interrupted";
+}
+
+template <typename Figure> double median(const std::vector<levels::StepRow>& rows, Figure figure) {
+  std::vector<double> values;
+  for (const levels::StepRow& row : rows)
+    if (row.error) values.push_back(figure(*row.error));
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+} // namespace
+
+Totals totals_of(const RunResult& result, const levels::BuiltMesh& mesh) {
+  Totals t;
+  for (const levels::StepRow& row : result.rows) {
+    t.steps += 1;
+    t.sweeps += row.sweeps;
+    t.cycles += row.cycles;
+    t.bus_cycles += row.bus_cycles;
+    t.clipped += row.clipped;
+    t.unconverged += !row.converged;
+    t.worst_strain = std::max(t.worst_strain, row.max_strain);
+    if (!row.error) continue;
+    t.largest_error = std::max(t.largest_error, row.error->largest_output);
+    t.largest_network_error = std::max(t.largest_network_error, row.error->network);
+    t.worst_energy_gap = std::max(t.worst_energy_gap, row.error->energy_gap);
+  }
+  t.median_error = median(result.rows, [](const levels::ReferenceError& e) { return e.rms_output; });
+  t.median_energy_gap = median(result.rows, [](const levels::ReferenceError& e) { return e.energy_gap; });
+  t.updates = t.sweeps * mesh.topology().neurons();
+  t.peak_memory_mb = peak_memory_mb();
+  return t;
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
+                   const levels::Motion& motion)
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), mesh_hash_(run::mesh_hash(mesh.mesh())),
+      image_(image_of(facts.inputs.scene)), lock_(folder),
+      positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
+  if (facts.level->has_codes()) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
+  positions_.append(motion.positions());
+}
+
+RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
+                   RunStreams streams)
+    : folder_(ready(folder, facts, mesh, streams.steps)), facts_(facts), mesh_(mesh),
+      mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)),
+      lock_(std::move(streams.lock)),
+      positions_(folder / "positions.npy", place_shape(), std::move(streams.positions)),
+      table_(folder / "steps.csv", step_columns(), std::move(streams.table)) {
+  if (streams.outputs)
+    outputs_.emplace(folder / "outputs_raw.npy", code_shape(), std::move(*streams.outputs));
+}
+
+std::optional<std::uint64_t> RunFiles::image_hash() const {
+  return image_ ? std::optional(picture_hash(*image_)) : std::nullopt;
+}
+
+void RunFiles::step(const levels::StepRow& row, const levels::Motion& motion) {
+  positions_.append(motion.positions());
+  if (outputs_) outputs_->append(motion.outputs_raw());
+  write_row(table_, row);
+}
+
+std::vector<NamedMark> RunFiles::sync() {
+  std::vector<NamedMark> marks{{"positions.npy", positions_.sync()}, {"steps.csv", table_.sync()}};
+  if (outputs_) marks.push_back({"outputs_raw.npy", outputs_->sync()});
+  return marks;
+}
+
+void RunFiles::finish(const RunResult& result, const levels::Motion& motion) {
+  positions_.commit();
+  if (outputs_)
+    outputs_->commit();
+  else // what an earlier run at a level with codes left here is not of this run
+    discard("outputs_raw.npy");
+  table_.commit();
+  const std::string what = manifest(result);
+  files::write_file(folder_ / "manifest.json", what);
+  files::write_file(folder_ / "stats.json",
+                    statistics(result, motion)); // kept if the pictures cannot be written
+  auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
+  pictures::write_glb(view, folder_ / "mesh.glb");
+  pictures::write_mesh_picture(view, folder_ / "picture.svg");
+  if (image_)
+    overlay(motion);
+  else
+    discard("overlay.svg");
+  view.tables = run_tables(facts_, mesh_, result, motion.ranges());
+  if (facts_.level->has_codes())
+    for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
+      view.tables.push_back(table);
+  pictures::write_report(view, folder_ / "report.html");
+  files::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
+  if (result.outcome == Outcome::interrupted) return;
+  discard(checkpoint_name); // last: until here a killed run can be resumed
+}
+
+// Springs as they were and as they came to lie, over the picture that pulled them.
+void RunFiles::overlay(const levels::Motion& motion) const {
+  const scene::Scene& scene = facts_.inputs.scene;
+  std::vector<pictures::OverlayLine> start, end;
+  for (const scene::Spring& s : mesh_.mesh().springs) {
+    const auto pixel = [&](const double* place) { return levels::pixel_of(*scene.force.image, place); };
+    const auto& was = mesh_.mesh().position;
+    const double* is = motion.positions().data();
+    start.push_back({pixel(was[s.node[0]].data()), pixel(was[s.node[1]].data())});
+    end.push_back({pixel(is + 3 * s.node[0]), pixel(is + 3 * s.node[1])});
+  }
+  pictures::write_overlay(folder_ / "overlay.svg", *image_, start, end);
+}
+
+// The part first: a kill in between leaves no more than a kill before.
+void RunFiles::discard(const std::string& name) const {
+  std::error_code none;
+  for (const char* part : {".part", ""}) std::filesystem::remove(folder_ / (name + part), none);
+}
+
+std::string RunFiles::statistics(const RunResult& result, const levels::Motion& motion) const {
+  const Totals t = totals_of(result, mesh_);
+  const double s = result.wall_seconds;
+  Json json{{"scene", facts_.inputs.scene.name},
+            {"level", facts_.level->name},
+            {"outcome", name_of(result.outcome)},
+            {"sentence", result.sentence},
+            {"nodes", mesh_.nodes()},
+            {"neurons", mesh_.topology().neurons()},
+            {"steps", t.steps},
+            {"sweeps", t.sweeps},
+            {"steps_stopped_by_max_sweeps", t.unconverged},
+            {"neuron_updates", t.updates},
+            {"wall_seconds", s},
+            {"steps_per_second", s > 0 ? static_cast<double>(t.steps) / s : 0},
+            {"neuron_updates_per_second", s > 0 ? static_cast<double>(t.updates) / s : 0},
+            {"largest_strain", t.worst_strain},
+            {"peak_memory_mb", t.peak_memory_mb}};
+  if (facts_.level->has_codes()) {
+    json["simulated_cycles"] = t.cycles;
+    json["bus_cycles"] = t.bus_cycles;
+    json["simulated_cycles_per_second"] = s > 0 ? static_cast<double>(t.cycles) / s : 0;
+    json["clipped"] = t.clipped;
+    json["against_reference"] = {{"median_output_error_rms", t.median_error},
+                                 {"median_energy_gap", t.median_energy_gap},
+                                 {"largest_output_error", t.largest_error},
+                                 {"largest_energy_gap", t.worst_energy_gap},
+                                 {"largest_network_error", t.largest_network_error}};
+    if (result.rows.empty() || !result.rows.front().error) json["against_reference"] = nullptr;
+    for (const levels::SignalRange& r : motion.ranges())
+      json["ranges"].push_back({{"signal", r.signal},
+                                {"format", r.format.text()},
+                                {"least_raw", r.least},
+                                {"largest_raw", r.largest},
+                                {"least", std::ldexp(double(r.least), -r.format.fraction_bits())},
+                                {"largest", std::ldexp(double(r.largest), -r.format.fraction_bits())}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string RunFiles::manifest(const RunResult& result) const {
+  Json json{
+      {"program", "hopmesh"},
+      {"version", version},
+      {"commit", commit},
+      {"compiler", compiler},
+      {"build_type", build_type},
+      {"command",
+       facts_.command + (facts_.asked_steps > 0 ? fmt::format(" --steps {}", facts_.asked_steps) : "")},
+      {"level", facts_.level->name},
+      {"seed", nullptr}, // nothing in a run is drawn at random
+      {"outcome", name_of(result.outcome)},
+      {"scene", scene::scene_text(facts_.inputs.scene)},
+      {"array", facts_.level->has_codes() ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
+      {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
+      {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
+  json["step_hashes"] = Json::array();
+  for (const levels::StepRow& row : result.rows)
+    json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
+  return json.dump(2) + "\n";
+}
+
+} // namespace hopmesh::run

@@ -1,0 +1,24 @@
+// From the files of a run to what its pictures need.
+#pragma once
+
+#include "sim/pictures/run_view.h"
+#include "sim/run/run_files.h"
+
+namespace hopmesh::run {
+
+inline constexpr std::size_t most_frames = 240;            ///< shown in the report; glTF takes fewer of them
+inline constexpr std::size_t most_frame_bytes = 64u << 20; ///< of all frames together, but for two at least
+
+/// The rows of positions.npy that the report shows: evenly, first and last included.
+std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes);
+
+/// Frames are read back from positions.npy.
+pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
+                              const std::filesystem::path& positions, std::string manifest);
+
+/// "The run", "Accuracy" and "Codes seen": the figures that the end of a run prints.
+std::vector<std::pair<std::string, std::vector<pictures::Figure>>>
+run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
+           const std::vector<levels::SignalRange>& ranges);
+
+} // namespace hopmesh::run

@@ -1,0 +1,56 @@
+#include "sim/study/size_trials.h"
+
+#include "sim/levels/level.h"
+#include "sim/levels/stop.h"
+#include "sim/study/point_pool.h"
+
+namespace hopmesh::study {
+
+namespace {
+
+TrialRow row_of(const run::RunResult& result, double error) {
+  TrialRow row;
+  const bool finished = result.outcome == run::Outcome::finished;
+  row.status = finished ? "finished" : "diverged";
+  if (finished) row.error = error;
+  for (const levels::StepRow& step : result.rows) {
+    row.sweeps += step.sweeps, row.cycles += step.cycles;
+    row.most_sweeps = std::max(row.most_sweeps, step.sweeps);
+    row.most_cycles = std::max(row.most_cycles, step.cycles);
+  }
+  return row;
+}
+
+} // namespace
+
+// In a child.
+int SizeTrials::fly(const Setting& setting) const {
+  levels::Prepared p{sizing_.inputs_of(setting), nullptr};
+  p.mesh = std::make_unique<levels::BuiltMesh>(p.inputs.scene);
+  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
+  const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
+  const run::RunResult result = run::simulate(*level.motion, steps, {}, levels::stop_requested);
+  if (levels::stop_requested) return child_stopped;
+  folder_.keep(setting, row_of(result, run::rms_distance(level.motion->positions(), target_)));
+  return child_done;
+}
+
+std::vector<TrialRow> SizeTrials::rows(const std::vector<Setting>& settings) {
+  std::vector<std::size_t> missing;
+  for (std::size_t k = 0; k < settings.size(); ++k)
+    if (!folder_.find(settings[k])) missing.push_back(k);
+  const bool whole = run_in_children(
+      missing, workers_, [&](std::size_t k) { return fly(settings[k]); },
+      [&](std::size_t k, const ChildEnd& end) {
+        const bool asked = levels::stop_requested || end.exit_code == child_stopped;
+        if (!asked && !folder_.find(settings[k])) folder_.keep(settings[k], {});
+        progress_.count(++flown_);
+      },
+      levels::stop_requested);
+  if (!whole || levels::stop_requested) throw SearchStopped();
+  std::vector<TrialRow> rows;
+  for (const Setting& setting : settings) rows.push_back(folder_.find(setting).value());
+  return rows;
+}
+
+} // namespace hopmesh::study

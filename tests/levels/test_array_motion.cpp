@@ -1,0 +1,174 @@
+// Firmware, driver, bus and a software array beside the double reference.
+#include "sim/levels/array_motion.h"
+#include "sim/levels/reference_motion.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/soft_array.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace hopmesh::tests {
+namespace {
+
+using levels::StepRow;
+using ::testing::HasSubstr;
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::fabs(a[k] - b[k]));
+  return largest;
+}
+
+/// A scene on a software array.
+struct Rig {
+  explicit Rig(const scene::Scene& s, const spec::ArraySpec& a = fine_array(), bool check = true)
+      : mesh(s), port(a, mesh.topology()), motion(s, mesh, a, port, check) {}
+  levels::BuiltMesh mesh;
+  SoftArray port;
+  levels::ArrayMotion motion;
+};
+
+TEST(ArrayMotion, FollowsTheReferenceAsFarAsTheFormatsReach) {
+  for (bool planar : {false, true}) {
+    scene::Scene scene = grid_scene(3, 3);
+    scene.mesh.planar = planar;
+    if (planar) scene.force.wind = scene::Vector3{0.3, 0, 0};
+    Rig rig(scene);
+    levels::ReferenceMotion reference(scene, rig.mesh, fine_array());
+    for (int k = 0; k < 4; ++k) {
+      const StepRow a = rig.motion.advance(), b = reference.advance();
+      EXPECT_EQ(a.sweeps, b.sweeps);
+      EXPECT_EQ(a.converged, b.converged);
+      // A drive of 24 fraction bits sees no slope below 6e-8; the flattest direction is some 1e4 times
+      // flatter than N.
+      EXPECT_LT(a.error->largest_output, 2e-3);
+      EXPECT_LT(a.error->rms_output, a.error->largest_output);
+      EXPECT_LT(a.error->network, 1e-13);
+      EXPECT_LT(largest_difference(rig.motion.positions(), reference.positions()), 1e-6);
+      EXPECT_NEAR(a.energy, b.energy, 1e-6);
+    }
+  }
+}
+
+TEST(ArrayMotion, ACoarseArrayIsFurtherOff) {
+  spec::ArraySpec byte = *spec::preset("byte");
+  Rig fine(grid_scene(3, 3)), coarse(grid_scene(3, 3), byte);
+  EXPECT_GT(coarse.motion.advance().error->largest_output, 100 * fine.motion.advance().error->largest_output);
+}
+
+TEST(ArrayMotion, RowsTellStepTimeCyclesAndBus) {
+  Rig rig(grid_scene(2, 2));
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const StepRow row = rig.motion.advance();
+    EXPECT_EQ(row.step, k);
+    EXPECT_DOUBLE_EQ(row.time, 0.05 * static_cast<double>(k + 1));
+    const auto phases = spec::phases_of(rig.mesh.topology(), fine_array().schedule);
+    EXPECT_EQ(row.cycles, spec::cycle_model(fine_array(), rig.mesh.topology(), phases).run(row.sweeps));
+    EXPECT_GT(row.bus_cycles, rig.mesh.topology().weight_words());
+    EXPECT_EQ(row.clipped, 0u);
+  }
+  EXPECT_EQ(rig.port.begun, (std::vector<std::uint64_t>{0, 1, 2}));
+  EXPECT_EQ(rig.port.ended, rig.port.begun);
+}
+
+TEST(ArrayMotion, WithoutCheckTheMotionIsTheSame) {
+  Rig with(grid_scene(3, 3)), without(grid_scene(3, 3), fine_array(), false);
+  for (int k = 0; k < 3; ++k) {
+    const StepRow a = with.motion.advance(), b = without.motion.advance();
+    EXPECT_TRUE(a.error);
+    EXPECT_FALSE(b.error);
+    EXPECT_EQ(a.hash, b.hash);
+  }
+}
+
+TEST(ArrayMotion, RawOutputsAreWhatTheArrayHolds) {
+  Rig rig(grid_scene(2, 3));
+  rig.motion.advance();
+  const auto rest = rig.motion.rest_raw();
+  std::vector<std::int32_t> window(rest.size());
+  const hm_bus& bus = rig.port.bus();
+  ASSERT_EQ(bus.read_burst(bus.context, HM_WINDOW_OUTPUT, reinterpret_cast<std::uint32_t*>(window.data()),
+                           static_cast<std::uint32_t>(window.size())),
+            HM_OK);
+  EXPECT_EQ(rest, window);
+  EXPECT_EQ(rig.motion.outputs_raw(), rig.mesh.by_node(rest));
+}
+
+TEST(ArrayMotion, RangesCoverWhatPassedTheBusAndWhatThePortSaw) {
+  Rig rig(grid_scene(2, 3));
+  rig.motion.advance();
+  const auto ranges = rig.motion.ranges();
+  ASSERT_EQ(ranges.size(), 4u);
+  EXPECT_EQ(ranges[0].signal, "weight");
+  EXPECT_LT(ranges[0].least, 0);
+  EXPECT_LE(ranges[0].largest, fine_array().formats.weight.max_raw());
+  EXPECT_EQ(ranges[2].signal, "state");
+  EXPECT_LE(ranges[2].largest, fine_array().formats.state.one_raw());
+  EXPECT_EQ(ranges[3].signal, "drive");
+  EXPECT_EQ(ranges[3].largest, 4);
+}
+
+TEST(ArrayMotion, AStoppedStepDidNotHappen) {
+  Rig rig(grid_scene(2, 3));
+  rig.motion.advance();
+  const auto before = rig.motion.positions();
+  rig.port.stop = true;
+  EXPECT_THROW(rig.motion.advance(), levels::Stopped);
+  EXPECT_EQ(rig.motion.positions(), before);
+}
+
+TEST(ArrayMotion, ABrokenBusIsTold) {
+  Rig rig(grid_scene(2, 3));
+  rig.port.refuse = true;
+  try {
+    rig.motion.advance();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the bus refused a transfer"));
+  }
+}
+
+TEST(ArrayMotion, AnArrayBuiltForAnotherMeshIsTold) {
+  const scene::Scene scene = grid_scene(2, 3);
+  const levels::BuiltMesh mesh(scene), other(grid_scene(3, 3));
+  SoftArray port(fine_array(), other.topology());
+  levels::ArrayMotion motion(scene, mesh, fine_array(), port, false);
+  EXPECT_THROW(motion.advance(), std::runtime_error);
+}
+
+TEST(ArrayMotion, NumbersBeyondDoubleDivergeAndTheLastGoodStateStays) {
+  scene::Scene scene = grid_scene(1, 2);
+  scene.force.gravity = {0, 0, -1e15};
+  scene.motion.time_step = 1e15;
+  Rig rig(scene, fine_array(), false);
+  std::vector<double> before;
+  const auto until_it_diverges = [&] {
+    for (int k = 0; k < 100; ++k) {
+      before = rig.motion.positions();
+      rig.motion.advance();
+    }
+  };
+  EXPECT_THROW(until_it_diverges(), levels::Diverged);
+  EXPECT_EQ(rig.motion.positions(), before);
+  for (double x : before) EXPECT_TRUE(std::isfinite(x));
+}
+
+TEST(ArrayMotion, TakesEveryKeyOfTheMotion) {
+  scene::Scene s;
+  s.motion.time_step = 0.1, s.motion.friction = 0.5;
+  s.probe = {7, 8, 0.25, "all", "acceleration"};
+  s.relax = {1e-3, 77, 3};
+  s.force.gravity = {1, 2, 3}, s.force.wind = scene::Vector3{10, 20, 30};
+  const hm_motion m = levels::motion_of(s);
+  EXPECT_EQ(
+      std::vector<double>({m.time_step, m.friction, m.gamma, m.beta, m.acceleration_memory, m.threshold}),
+      std::vector<double>({0.1, 0.5, 7, 8, 0.25, 1e-3}));
+  EXPECT_EQ(std::vector<double>(m.force, m.force + 3), std::vector<double>({11, 22, 33}));
+  EXPECT_TRUE(m.energy_of_all_springs && m.force_on_acceleration);
+  EXPECT_EQ(m.max_sweeps, 77u);
+  EXPECT_EQ(m.expansions, 3u);
+}
+
+} // namespace
+} // namespace hopmesh::tests

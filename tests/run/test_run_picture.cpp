@@ -1,0 +1,45 @@
+// Which frames of a run its report shows.
+#include "sim/run/run_picture.h"
+
+#include <gmock/gmock.h>
+
+namespace hopmesh::tests {
+namespace {
+
+using run::rows_shown;
+using ::testing::ElementsAre;
+
+TEST(RowsShown, AllOfAShortRun) {
+  EXPECT_THAT(rows_shown(0, 400), ElementsAre());
+  EXPECT_THAT(rows_shown(1, 400), ElementsAre(0));
+  EXPECT_THAT(rows_shown(4, 400), ElementsAre(0, 1, 2, 3));
+}
+
+TEST(RowsShown, EvenlyFirstAndLastIncluded) {
+  const auto rows = rows_shown(401, 400);
+  ASSERT_EQ(rows.size(), run::most_frames);
+  EXPECT_EQ(rows.front(), 0u);
+  EXPECT_EQ(rows.back(), 400u);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    EXPECT_GE(rows[k] - rows[k - 1], 1u);
+    EXPECT_LE(rows[k] - rows[k - 1], 2u);
+  }
+}
+
+TEST(RowsShown, ALargeMeshKeepsWithinTheBudget) {
+  for (std::size_t nodes : {20000, 30000, 100000, 1000000, 2000000}) {
+    const auto rows = rows_shown(1000, nodes);
+    EXPECT_LE(rows.size() * nodes * 12, run::most_frame_bytes) << nodes; // three floats a node
+    EXPECT_EQ(rows.front(), 0u);
+    EXPECT_EQ(rows.back(), 999u);
+  }
+  EXPECT_THAT(rows_shown(1000, 1000000), ElementsAre(0, 249, 499, 749, 999)); // 67.1 MB for 12 MB each
+}
+
+TEST(RowsShown, TwoAtLeastHoweverLargeTheMesh) {
+  EXPECT_THAT(rows_shown(1000, 4000000), ElementsAre(0, 999));
+  EXPECT_THAT(rows_shown(1, 4000000), ElementsAre(0));
+}
+
+} // namespace
+} // namespace hopmesh::tests

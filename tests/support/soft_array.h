@@ -1,0 +1,57 @@
+// A plain software array that answers the register protocol: a level of its own for tests of the study, with
+// a fault to order.
+#pragma once
+
+#include "firmware/registers.h"
+#include "sim/levels/array_port.h"
+#include "tests/support/slow_array.h"
+
+#include <map>
+#include <optional>
+
+namespace hopmesh::tests {
+
+/// One output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
+/// since outputs were last written, over all runs: like any real array, this one has no state in a sweep but
+/// V.
+struct Fault {
+  std::uint32_t sweep; ///< 1-based
+  std::uint32_t neuron;
+  std::int32_t bit = 1;          ///< what is flipped, as a mask
+  std::uint32_t from_load = 0;   ///< 0-based, counted in writes of outputs
+  std::uint64_t more_cycles = 0; ///< that each run of such a relaxation takes beyond the formula
+  bool of_run = false;           ///< sweeps are counted since START instead: a fault of a long run only
+};
+
+class SoftArray : public levels::ArrayPort {
+ public:
+  SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault = {});
+  SoftArray(const SoftArray&) = delete;
+  SoftArray& operator=(const SoftArray&) = delete;
+
+  const hm_bus& bus() override { return bus_; }
+  void begin_step(std::uint64_t step) override { begun.push_back(step); }
+  void end_step(std::uint64_t step) override { ended.push_back(step); }
+  std::vector<levels::SignalRange> inner_ranges() const override;
+
+  /// Counts `from_load` from now.
+  void forget_loads() { loads_ = 0; }
+
+  bool refuse = false; ///< every transfer fails from now on
+  bool stop = false;   ///< waiting is given up
+  std::vector<std::uint64_t> begun, ended;
+
+ private:
+  std::uint32_t* word_at(std::uint32_t address);
+  int transfer(std::uint32_t address, std::uint32_t* words, std::uint32_t count, bool write);
+  void run();
+
+  ArrayJob job_;
+  std::optional<Fault> fault_;
+  std::map<std::uint32_t, std::uint32_t> registers_;
+  std::vector<std::uint32_t> first_link_, link_;
+  std::uint32_t loads_ = 0, sweeps_ = 0;
+  hm_bus bus_{};
+};
+
+} // namespace hopmesh::tests
