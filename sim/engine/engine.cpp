@@ -89,7 +89,7 @@ bool Engine::advance(const std::atomic<bool>& stop) {
   return result_.converged || result_.sweeps == max_sweeps_;
 }
 
-RunResult Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+spec::Relaxation Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
   static const std::atomic<bool> never{false};
   begin_run(threshold, max_sweeps);
   advance(never);
