@@ -15,7 +15,7 @@ template <typename Int> Int floor_quotient(Int x, Int d) {
   return toward_zero - (toward_zero * d > x);
 }
 
-/// x / d rounded, d > 0; 2 |x| + 2 d must fit. Counted in halves of d, and so in units of 2 d.
+/// x / d rounded, d > 0; 2 |x| + 2 d must fit. Computed as 2 x / 2 d, so that half a unit is the integer d.
 template <typename Int> [[gnu::noinline]] Int round_quotient(Int x, Int d, const RoundingRule& rule) {
   if (rule.unit_if_negative) return x / d; // toward zero
   Int y = 2 * x + rule.add(d);
@@ -23,7 +23,8 @@ template <typename Int> [[gnu::noinline]] Int round_quotient(Int x, Int d, const
   const Int quotient = floor_quotient<Int>(y, 2 * d);
   if (rule.ones_if_odd == 0) return quotient;
   return quotient +
-         (quotient & (y + rule.ones_if_odd == (quotient + 1) * 2 * d)); // one more reaches the next
+         (quotient & (y + rule.ones_if_odd ==
+                      (quotient + 1) * 2 * d)); // the floor of x / d is odd, and one more reaches the next
 }
 
 /// floor(2^(b + bits - 2) / N), b the bit length of N > 0: a number of `bits` bits.

@@ -13,16 +13,15 @@ struct ModeRule {
 
 using spec::Rounding;
 
-// In the order of spec::Rounding.
+// In the order of spec::Rounding: half a unit, a unit if negative; ones, ones if negative, ones if odd.
 constexpr ModeRule rules[] = {
-    // mode                always: half, ones; below zero: unit, ones; odd
-    {Rounding::rnd, {1, 0, 0, 0, 0}},          // nearest, a tie goes up
-    {Rounding::rnd_zero, {1, -1, 0, 1, 0}},    // nearest, a tie goes toward zero
-    {Rounding::rnd_min_inf, {1, -1, 0, 0, 0}}, // nearest, a tie goes down
-    {Rounding::rnd_inf, {1, 0, 0, -1, 0}},     // nearest, a tie goes away from zero
-    {Rounding::rnd_conv, {1, -1, 0, 0, 1}},    // nearest, a tie goes to the even number
-    {Rounding::trn, {0, 0, 0, 0, 0}},          // down
-    {Rounding::trn_zero, {0, 0, 1, -1, 0}},    // toward zero
+    {Rounding::rnd, {true, false, 0, 0, 0}},          // nearest, a tie goes up
+    {Rounding::rnd_zero, {true, false, -1, 1, 0}},    // nearest, a tie goes toward zero
+    {Rounding::rnd_min_inf, {true, false, -1, 0, 0}}, // nearest, a tie goes down
+    {Rounding::rnd_inf, {true, false, 0, -1, 0}},     // nearest, a tie goes away from zero
+    {Rounding::rnd_conv, {true, false, -1, 0, 1}},    // nearest, a tie goes to the even number
+    {Rounding::trn, {false, false, 0, 0, 0}},         // down
+    {Rounding::trn_zero, {false, true, 0, -1, 0}},    // toward zero
 };
 
 constexpr bool in_order() {

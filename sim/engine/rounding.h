@@ -1,5 +1,5 @@
-// The engine's one door for rounding: SystemC's seven modes on integers (docs/hardware/datapath.md, Q). Every mode is
-// a floor after the right thing was added, whether bits are shifted out (here) or a quotient is cut
+// The engine's one door for rounding: SystemC's seven modes on integers (docs/hardware/datapath.md, Q). Every
+// mode is a floor after the right thing was added, whether bits are shifted out (here) or a quotient is cut
 // (division.h). The kernels read this too, so it includes nothing but integers; kernel_body.h says why.
 #pragma once
 
@@ -13,13 +13,14 @@ namespace hopmesh::engine {
 
 __extension__ typedef __int128 Int128;
 
-/// What a mode adds to x before the floor: parts of a unit of the result, and ones of the last place of x.
+/// What a mode adds to x before the floor, in parts of a unit of the result and in ones of the last place of
+/// x.
 struct RoundingRule {
-  std::int64_t half, ones;                         ///< always: half a unit or nothing, and so many ones
-  std::int64_t unit_if_negative, ones_if_negative; ///< more where x < 0: a unit or nothing, and ones
-  std::int64_t ones_if_odd;                        ///< more where the floor of x is odd
+  bool half, unit_if_negative; ///< half a unit always; a unit more where x < 0
+  std::int64_t ones, ones_if_negative;
+  std::int64_t ones_if_odd; ///< where the floor of x is odd
 
-  // What that comes to; `half_unit`: half a unit of the result, in ones.
+  // In ones, where half a unit of the result is `half_unit` of them.
   template <typename Int> [[gnu::always_inline]] Int add(Int half_unit) const {
     return (half ? half_unit : 0) + ones;
   }
@@ -54,12 +55,12 @@ BasicShiftRounding<Int> shift_rounding(int places, spec::Rounding mode) {
   return shift_rounding<Int>(places, rounding_rule(mode));
 }
 
-/// For places >= 0. `X` is Int, or a vector of it. Forced into its caller: left outside, it would be compiled
-/// for the plainest processor only.
+/// x * 2^-places rounded, places >= 0. `X` is std::int64_t or a vector of it. The function is forced into its
+/// caller: left outside, it would be compiled for the plainest processor only.
 template <typename X> [[gnu::always_inline]] inline X rounded(X x, const ShiftRounding& r) {
   return (x + r.add + ((x >> 63) & r.add_if_negative) + ((x >> r.places) & r.add_if_odd)) >> r.places;
 }
-/// For any number of places. In 128 bits the processor would rather guess right than work in vain.
+/// x * 2^-places rounded, for any number of places. Branches, since in 128 bits every addition costs.
 inline Int128 rounded(Int128 x, const WideShiftRounding& r) {
   if (r.places <= 0) return shifted_up(x, -r.places);
   Int128 sum = x + r.add;

@@ -6,7 +6,7 @@
 
 namespace hopmesh::engine {
 
-ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
+ClockedBeats::ClockedBeats(const NeuronPlan& plan, const ClockedLayout& layout)
     : plan_(plan), layout_(layout), path_(plan), wide_sum_(plan), sum_limit_(plan.formats.accumulator),
       to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
       to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)),
@@ -46,7 +46,7 @@ void ClockedBeats::add_norms(const ClockedBank& bank, std::uint64_t first, std::
 void ClockedBeats::invert(const ClockedBank& bank) {
   for (std::size_t r = bank.first_row; r < bank.first_row + per_cell_ * bank.width; ++r) {
     const DrivePath::Inverse inverse = path_.invert(static_cast<std::uint64_t>(at.norm[r]));
-    if (at.norm[r] != 0) at.reciprocal[r] = inverse.reciprocal; // a row of zeros divides nothing
+    if (at.norm[r] != 0) at.reciprocal[r] = inverse.reciprocal; // else it keeps what it has, as in hardware
     multiplier_[r] = inverse.multiplier;
     places_[r] = inverse.places;
   }

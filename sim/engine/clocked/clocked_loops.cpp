@@ -15,7 +15,7 @@ HM_WIDEST void add_short_tap(const std::int32_t* __restrict weights, const std::
   for (std::size_t r = 0; r < rows; ++r) sums[r] += std::int64_t{weights[r] * links[r]};
 }
 
-// Many clocks at once: sums stay in registers.
+// Many clocks at once: the sums stay in the registers of the processor.
 HM_WIDEST void add_products(const std::int32_t* __restrict weights, std::size_t weight_stride,
                             const std::int32_t* __restrict links, std::size_t link_stride, std::size_t taps,
                             std::int64_t* __restrict sums) {

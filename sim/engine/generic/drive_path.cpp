@@ -4,7 +4,7 @@
 
 namespace hopmesh::engine {
 
-DrivePath::DrivePath(const Plan& plan)
+DrivePath::DrivePath(const NeuronPlan& plan)
     : plan_(plan), rule_(rounding_rule(plan.formats.drive.rounding)), limit_(plan.formats.drive) {
   if (plan.binary) return;
   if (plan.normaliser == spec::Normaliser::prescaled && plan.scaled_down >= 0) {
@@ -36,8 +36,7 @@ bool DrivePath::multiplies_narrowly() const {
   return places >= 0 && places <= 60 && multiplier <= 61 && product <= 61;
 }
 
-// r has reciprocal_bits of its own, and N from one to plan_.norm_bits: that decides how far their product
-// goes down.
+// The more bits N has, from one to norm_bits, the further the product moves down.
 bool DrivePath::multiplies_row_by_row() const {
   const int most = plan_.multiplier_places;
   const int least = plan_.reciprocal_bits - 1 - plan_.ratio_up;
@@ -48,7 +47,7 @@ bool DrivePath::multiplies_row_by_row() const {
 DrivePath::Inverse DrivePath::invert(std::uint64_t norm) const {
   if (norm == 0 || plan_.binary || plan_.normaliser != spec::Normaliser::reciprocal) return {};
   const std::int64_t r = reciprocal(norm, plan_.reciprocal_bits);
-  const int below = plan_.norm_bits - bit_length(norm); // bits that N has less than the widest
+  const int below = plan_.norm_bits - bit_length(norm); // bits that this N has less than the widest
   if (!narrow_) return {r, r, plan_.multiplier_places - below};
   return {r, r << below, plan_.multiplier_places};
 }
@@ -66,7 +65,7 @@ void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* 
       u[l] = drive({rows.norm + l, rows.multiplier + l, rows.places + l}, sum[l]);
     return;
   }
-  const auto overflow = plan_.formats.drive.overflow; // those that saturate end beyond the limiter
+  const auto overflow = plan_.formats.drive.overflow; // a drive that saturates is then clamped to ±1 anyway
   if (plan_.normaliser == spec::Normaliser::reciprocal && overflow != spec::Overflow::wrap &&
       overflow != spec::Overflow::sat_zero)
     return scale_lanes(u, rows.multiplier, to_drive_, plan_.one_drive);

@@ -1,9 +1,10 @@
 // Any array that the description allows: rows in lanes, 64 bits where they hold every code that the memories
 // can hold, 128 where a format asks for them.
+#include "sim/engine/generic/generic_core.h"
+
 #include "sim/engine/aligned.h"
-#include "sim/engine/core.h"
 #include "sim/engine/generic/drive_path.h"
-#include "sim/engine/generic/lanes.h"
+#include "sim/engine/generic/lane_arithmetic.h"
 #include "sim/engine/generic/wide_sum.h"
 
 #include <cstdlib>
@@ -15,9 +16,9 @@ namespace {
 constexpr std::size_t L = block_lanes;
 static_assert(L == lane_count);
 
-class GenericCore : public Core {
+class GenericCore : public SweepCore {
  public:
-  GenericCore(const Plan& plan, const Layout& layout)
+  GenericCore(const NeuronPlan& plan, const Layout& layout)
       : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), path_(plan),
         wide_sum_(plan), sum_limit_(plan.formats.accumulator),
         to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
@@ -60,11 +61,11 @@ class GenericCore : public Core {
     for (std::size_t b = first; b < last; ++b)
       for (std::size_t p = 0; p < per_cell_; ++p) prepare_rows(b, p);
   }
-  void fire(std::size_t first, std::size_t last, Swept& swept) override {
+  void fire(std::size_t first, std::size_t last, SweepRecord& record) override {
     std::vector<std::int32_t> in(plan_.most_taps * L);
     for (std::size_t b = first; b < last; ++b) {
       gather(b, in.data());
-      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, in.data(), swept);
+      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, in.data(), record);
     }
   }
   void end_sweep() override {
@@ -94,14 +95,14 @@ class GenericCore : public Core {
   void prepare_rows(std::size_t b, std::size_t p);
   void invert(std::size_t at, std::uint64_t norm);
   void gather(std::size_t b, std::int32_t* in) const;
-  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept);
+  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record);
   void sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps, const std::int32_t* bias,
                    std::int64_t* sum) const;
   void begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const;
   void sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                      const std::int32_t* bias, std::int64_t* sum) const;
 
-  const Plan& plan_;
+  const NeuronPlan& plan_;
   const Layout& layout_;
   const std::size_t per_cell_;
   const DrivePath path_;
@@ -115,7 +116,7 @@ class GenericCore : public Core {
   AlignedVector<std::int32_t> bias_, state_;       ///< [block][p][lane]
   AlignedVector<std::int32_t> link_, next_link_;   ///< [p][slot]
   AlignedVector<std::int64_t> norm_, reciprocal_;  ///< [block][p][lane]
-  std::vector<int> places_;                        ///< that s times the reciprocal is moved down
+  std::vector<int> places_;                        ///< Inverse::places of each row
   std::array<AlignedVector<std::int32_t>, 2> kept_;
 };
 
@@ -151,7 +152,7 @@ void GenericCore::gather(std::size_t b, std::int32_t* in) const {
 }
 
 // Coloured and sequential: the cell's next neuron reads what this one has become.
-void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept) {
+void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record) {
   alignas(64) std::int64_t sum[L], u[L];
   const std::size_t taps = taps_of(layout_.neighbours[b]), first = (b * per_cell_ + p) * L;
   const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L];
@@ -160,14 +161,14 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swep
   else
     sum_with_loss(w, in, taps, &bias_[first], sum);
   path_.drives({&norm_[first], &reciprocal_[first], &places_[first]}, sum, u);
-  spec::Extremes& x = swept.extremes;
-  LaneSwings sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
-  swing_lanes(sum, sums);
-  swing_lanes(u, driven);
+  spec::Extremes& x = record.extremes;
+  Swing sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
+  widen_swing(sum, sums);
+  widen_swing(u, driven);
   x = {sums.least, sums.largest, driven.least, driven.largest};
   std::int32_t* link = &(synchronous() ? next_link_ : link_)[p * layout_.slots() + b * L];
-  swept.largest =
-      std::max(swept.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
+  record.largest =
+      std::max(record.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
   if (!synchronous()) std::copy_n(link, L, in + p * L);
 }
 
@@ -204,14 +205,7 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
 
 } // namespace
 
-spec::Extremes Swept::all_extremes() const {
-  spec::Extremes all = extremes;
-  for (std::size_t l = 0; l < 8; ++l)
-    all.merge({swings.least_sum[l], swings.largest_sum[l], swings.least_drive[l], swings.largest_drive[l]});
-  return all;
-}
-
-std::unique_ptr<Core> make_generic_core(const Plan& plan, const Layout& layout) {
+std::unique_ptr<SweepCore> make_generic_core(const NeuronPlan& plan, const Layout& layout) {
   return std::make_unique<GenericCore>(plan, layout);
 }
 

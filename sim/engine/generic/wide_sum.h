@@ -1,15 +1,15 @@
 // The register of a rounding accumulator, of one row, in 128 bits: for any format there may be.
 #pragma once
 
+#include "sim/engine/neuron_plan.h"
 #include "sim/engine/overflow.h"
-#include "sim/engine/plan.h"
 #include "sim/engine/rounding.h"
 
 namespace hopmesh::engine {
 
 class WideSum {
  public:
-  explicit WideSum(const Plan& plan)
+  explicit WideSum(const NeuronPlan& plan)
       : product_up_(plan.product_up), format_(plan.formats.accumulator),
         bias_(shift_rounding<Int128>(plan.bias_down, plan.formats.accumulator.rounding)),
         sum_(shift_rounding<Int128>(plan.sum_up, plan.formats.accumulator.rounding)) {}

@@ -3,7 +3,7 @@
 #include "sim/engine/aligned.h"
 #include "sim/engine/division.h"
 #include "sim/engine/kernels/fast_layout.h"
-#include "sim/engine/kernels/fast_plan.h"
+#include "sim/engine/kernels/kernel_fit.h"
 
 #include <atomic>
 #include <cstring>
@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t L = block_lanes;
 
-class FastCore : public Core {
+class FastCore : public SweepCore {
  public:
-  FastCore(const Plan& plan, const Layout& layout, const KernelSet& kernels)
+  FastCore(const NeuronPlan& plan, const Layout& layout, const KernelSet& kernels)
       : plan_(plan), layout_(layout), kernels_(kernels),
         per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), at_(layout, per_cell_) {
     const std::size_t neurons = layout.slots() * per_cell_, slots = layout.slots() + 2 * L;
@@ -53,8 +53,8 @@ class FastCore : public Core {
 
   void prepare(std::size_t first, std::size_t last) override;
   void begin_run() override;
-  void fire(std::size_t first, std::size_t last, Swept& swept) override {
-    fire_(args_, first, last, swept.swings);
+  void fire(std::size_t first, std::size_t last, SweepRecord& record) override {
+    fire_(args_, first, last, record.lanes);
   }
   void end_sweep() override {
     if (!synchronous()) return;
@@ -84,7 +84,7 @@ class FastCore : public Core {
   void point_at_links();
   void invert(std::size_t at, std::uint64_t norm);
 
-  const Plan& plan_;
+  const NeuronPlan& plan_;
   const Layout& layout_;
   const KernelSet& kernels_;
   const std::size_t per_cell_;
@@ -185,7 +185,8 @@ const KernelSet* kernel_set(const std::string& name) {
   return name.empty() || name == "portable" ? &portable_kernels : nullptr;
 }
 
-std::unique_ptr<Core> make_fast_core(const Plan& plan, const Layout& layout, const KernelSet& kernels) {
+std::unique_ptr<SweepCore> make_fast_core(const NeuronPlan& plan, const Layout& layout,
+                                          const KernelSet& kernels) {
   return std::make_unique<FastCore>(plan, layout, kernels);
 }
 

@@ -3,6 +3,7 @@
 // instruction sets, and the processor at hand decides at run time.
 #pragma once
 
+#include "sim/engine/lane_extremes.h"
 #include "sim/engine/rounding.h"
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct Source {
   std::uint8_t lane[16];
 };
 
-/// s 2^ratio_up / N rounded, in doubles: something is added to the dividend, the quotient and where the
-/// dividend is negative, then a floor.
+/// s 2^ratio_up / N rounded, as a floor of doubles: what is added before it to the dividend and to the
+/// quotient, always and where the dividend is negative.
 struct KernelDivision {
   double to_dividend = 0, to_dividend_if_negative = 0, to_quotient = 0, to_quotient_if_negative = 0;
   int ratio_up = 0;
@@ -30,7 +31,7 @@ struct KernelArgs {
   const std::size_t* first_weight;   ///< of a block, in `weight`
   const std::uint32_t* first_source; ///< of a block, in `source`
   const Source* source;
-  const std::uint8_t* waits; ///< does a block read one of the two before it? (not within a group)
+  const std::uint8_t* waits; ///< does a block read one of the two before it? (never within a group)
   const std::uint32_t* far_slot;
   /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
   /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own
@@ -42,7 +43,8 @@ struct KernelArgs {
   std::int32_t* state;
   /// Links by slot: x and y in one word; z in both halves of another, or x where it is alone.
   const std::uint32_t *xy, *zz;
-  std::uint32_t *next_xy, *next_zz; ///< the same, but in synchronous arrays
+  std::uint32_t *next_xy,
+      *next_zz; ///< where new links go: xy and zz themselves, except in synchronous arrays
   bool synchronous;
   int bias_up, state_fraction;
   std::int64_t one_drive;
@@ -50,14 +52,8 @@ struct KernelArgs {
   KernelDivision division;
 };
 
-/// Running extremes, lane by lane; the kernel widens them. |Delta V| is unsigned: it may be 2^31.
-struct alignas(64) KernelSwings {
-  std::uint32_t largest_change[16] = {};
-  std::int64_t least_sum[8] = {}, largest_sum[8] = {}, least_drive[8] = {}, largest_drive[8] = {};
-};
-
 using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,
-                            KernelSwings& swings);
+                            LaneExtremes& extremes);
 /// Sum of |weight| of every row of a block: [p][lane].
 using RowKernel = void (*)(const KernelArgs& args, std::size_t block, std::uint32_t* sums);
 

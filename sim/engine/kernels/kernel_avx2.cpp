@@ -129,7 +129,7 @@ struct Avx2 {
   }
   static Words narrow(const Longs& low, const Longs& high) { return {{narrow_half(low), narrow_half(high)}}; }
 
-  // Numbers below 2^51 in the mantissa of 1.5 * 2^52.
+  // Added to 1.5 * 2^52, a number below 2^51 stands in the low bits of the mantissa.
   static constexpr double magic = 6755399441055744.0;
   static __m256i magic_bits() { return _mm256_castpd_si256(_mm256_set1_pd(magic)); }
   static Doubles to_doubles(const Longs& a) {

@@ -1,4 +1,4 @@
-// The output stage of sixteen neurons, for any instruction set; see kernel_body.h, whose first half this is.
+// The output stage of sixteen neurons, for any instruction set: the first half of kernel_body.h.
 #pragma once
 
 #include "sim/engine/kernels/kernel.h"
@@ -16,7 +16,7 @@ template <typename Isa, bool wide> struct Sum {
   typename Isa::Longs high() const { return Isa::high(sum); }
 };
 
-/// The same, pair by pair into 64 bits.
+/// Sums in 64 bits, added pair by pair: for arrays with a row that 32 bits do not hold.
 template <typename Isa> struct Sum<Isa, true> {
   typename Isa::Longs low_sum = Isa::all(0), high_sum = Isa::all(0);
   void add(typename Isa::Words links, const std::uint32_t* weights) {
@@ -51,7 +51,7 @@ template <typename Isa> struct KernelStage {
     return Isa::shift_down(sum, r.places);
   }
 
-  /// Everything that stays the same from block to block.
+  /// Constants of the run, and the extremes so far.
   struct Stage {
     const KernelArgs& args;
     Rounder drive, state;
@@ -60,7 +60,7 @@ template <typename Isa> struct KernelStage {
     typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
     typename Isa::Doubles to_dividend, to_dividend_if_negative, to_quotient, to_quotient_if_negative;
 
-    [[gnu::always_inline]] Stage(const KernelArgs& a, const KernelSwings& s)
+    [[gnu::always_inline]] Stage(const KernelArgs& a, const LaneExtremes& s)
         : args(a), drive(a.drive), state(a.state_rounding), link_add(Isa::all_words(a.link.add)),
           link_add_if_negative(Isa::all_words(a.link.add_if_negative)),
           link_add_if_odd(Isa::all_words(a.link.add_if_odd)), largest(Isa::load_words(s.largest_change)),
@@ -73,7 +73,7 @@ template <typename Isa> struct KernelStage {
           to_quotient(Isa::all_doubles(a.division.to_quotient)),
           to_quotient_if_negative(Isa::all_doubles(a.division.to_quotient_if_negative)) {}
 
-    void swings(KernelSwings& s) const {
+    void store_extremes(LaneExtremes& s) const {
       Isa::store_words(s.largest_change, largest);
       Isa::store(s.least_sum, least_sum);
       Isa::store(s.largest_sum, largest_sum);
@@ -93,7 +93,7 @@ template <typename Isa> struct KernelStage {
   template <Normalise how, bool plain>
   static Longs drive_of(Longs s, const std::int64_t* multiplier, const Stage& c) {
     if constexpr (how == Normalise::divide) return divided(s, multiplier, c);
-    if constexpr (how == Normalise::sign) // drive_fraction places are those of Delta V behind the state's
+    if constexpr (how == Normalise::sign) // the state's rounding drops as many places as u has
       return Isa::shift_up(Isa::min(Isa::max(s, Isa::all(-1)), Isa::all(1)), c.state.places);
     if constexpr (how == Normalise::multiply)
       return rounded<plain>(Isa::multiply(s, Isa::load(multiplier)), c.drive);
@@ -113,7 +113,7 @@ template <typename Isa> struct KernelStage {
     return rounded<plain>(product, c.state);
   }
 
-  /// V to its link. V has at most 31 bits of size, and so has all that is added.
+  /// V to its link. |V| has at most 31 bits, and so has all that is added.
   template <bool plain> static Words link_of(Words V, const Stage& c) {
     Words sum = Isa::add_words(V, c.link_add);
     if constexpr (!plain) {

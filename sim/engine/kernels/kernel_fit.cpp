@@ -1,8 +1,8 @@
-#include "sim/engine/kernels/fast_plan.h"
+#include "sim/engine/kernels/kernel_fit.h"
 
 namespace hopmesh::engine {
 
-Normalise normalise_of(const Plan& plan) {
+Normalise normalise_of(const NeuronPlan& plan) {
   return plan.binary                                       ? Normalise::sign
          : plan.normaliser == spec::Normaliser::reciprocal ? Normalise::multiply
          : plan.normaliser == spec::Normaliser::divider    ? Normalise::divide
@@ -11,7 +11,7 @@ Normalise normalise_of(const Plan& plan) {
 
 namespace {
 
-std::string why_no_normaliser(const Plan& plan) {
+std::string why_no_normaliser(const NeuronPlan& plan) {
   if (plan.binary) return "";
   const int row = plan.norm_bits, sum = plan.formats.accumulator.width;
   if (plan.normaliser == spec::Normaliser::reciprocal) {
@@ -35,7 +35,7 @@ std::string why_no_normaliser(const Plan& plan) {
 
 } // namespace
 
-std::string why_no_kernel(const Plan& plan) {
+std::string why_no_kernel(const NeuronPlan& plan) {
   if (plan.formats.weight.width > 16) return "weights of more than 16 bits";
   if (plan.formats.link.width > 16) return "links of more than 16 bits";
   if (!plan.exact) return "an accumulator that rounds";
@@ -44,14 +44,14 @@ std::string why_no_kernel(const Plan& plan) {
   return why_no_normaliser(plan);
 }
 
-// x / N is added to in units of N / 2 and of 1 / 2 (RoundingRule). The floor of doubles then has a quarter of
-// 1 / N to spare on either side: more than their error, since s and the quotient have few enough bits
-// (docs/hardware/engine.md).
+// As round_quotient, but n / N for 2 n / 2 N: a one of the rule is half a one of n. With the quarter, the
+// exact value keeps 1 / 4 N away from whole numbers. Doubles err by less, since s and the quotient have few
+// enough bits (docs/hardware/engine.md).
 KernelDivision kernel_division(int ratio_up, spec::Rounding mode) {
   const RoundingRule rule = rounding_rule(mode);
   const auto halves = [](std::int64_t count) { return 0.5 * static_cast<double>(count); };
-  return {0.25 + halves(rule.ones), halves(rule.ones_if_negative), halves(rule.half),
-          halves(2 * rule.unit_if_negative), ratio_up};
+  return {0.25 + halves(rule.ones), halves(rule.ones_if_negative), rule.half ? 0.5 : 0.0,
+          rule.unit_if_negative ? 1.0 : 0.0, ratio_up};
 }
 
 } // namespace hopmesh::engine

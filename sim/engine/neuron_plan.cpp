@@ -1,4 +1,4 @@
-#include "sim/engine/plan.h"
+#include "sim/engine/neuron_plan.h"
 
 #include "sim/engine/division.h"
 
@@ -6,7 +6,7 @@ namespace hopmesh::engine {
 
 namespace {
 
-int bits_of_norm(const Plan& plan) {
+int bits_of_norm(const NeuronPlan& plan) {
   const auto most_weight = std::uint64_t{1} << (plan.formats.weight.width - 1);
   const auto most_bias = std::uint64_t{1} << (plan.formats.bias.width - 1);
   return bit_length(((plan.most_taps * most_weight) << plan.weight_up) + (most_bias << plan.bias_up));
@@ -14,7 +14,7 @@ int bits_of_norm(const Plan& plan) {
 
 } // namespace
 
-Plan::Plan(const spec::ArraySpec& array, const spec::Topology& topology)
+NeuronPlan::NeuronPlan(const spec::ArraySpec& array, const spec::Topology& topology)
     : Points(spec::points_of(spec::built_formats(array, topology.most_taps()))),
       formats(spec::built_formats(array, topology.most_taps())), schedule(array.schedule),
       normaliser(array.normaliser), lanes(array.lanes), reciprocal_bits(array.reciprocal_bits),

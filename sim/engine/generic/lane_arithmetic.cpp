@@ -1,4 +1,4 @@
-#include "sim/engine/generic/lanes.h"
+#include "sim/engine/generic/lane_arithmetic.h"
 
 #include "sim/engine/widest.h"
 
@@ -8,7 +8,7 @@ namespace hopmesh::engine {
 
 namespace {
 
-/// Eight lanes by name: sixteen in an array are taken apart by the compiler before it makes them wide.
+/// Eight lanes as a type: the compiler would take an array of sixteen apart before it makes them wide.
 using Wide = std::int64_t __attribute__((vector_size(64)));
 using Narrow = std::int32_t __attribute__((vector_size(32)));
 constexpr std::size_t wide_lanes = 8;
@@ -28,9 +28,9 @@ template <bool wrap, bool zero> [[gnu::always_inline]] inline void hold(Wide& su
     sum = sum < f.low ? Wide{} + f.low : sum > f.high ? Wide{} + f.high : sum;
 }
 
-/// One beat of a rounding accumulator. All of it takes as long as what waits for the sum before it, so as
-/// much as can be is done without: the sum is whole, and a floor passes by what is whole. To the even
-/// number: ties go down, and one up again where that left an odd one.
+/// One beat of a rounding accumulator. Each beat waits for the sum of the beat before, so as much as can be
+/// is computed without that sum: the sum is a whole number, and floor(sum + x) = sum + floor(x). Rounding to
+/// even then takes a tie down, and up again where an odd sum is left.
 template <bool sign_matters, bool odd_matters>
 [[gnu::always_inline]] inline void add_rounded(Wide& sum, const Wide& more, const ShiftRounding& r) {
   if (sign_matters) {
@@ -156,7 +156,7 @@ HM_WIDEST void add_lane_groups(const std::int32_t* weights, const std::int32_t* 
     add_groups<false, false>(weights, links, taps, group, product_up, r, f, x);
 }
 
-// A quotient of doubles is at most one off; the exact rest puts it right, and says how to round.
+// The quotient of doubles is at most one off: the exact rest puts it right, and says how to round.
 HM_WIDEST void divide_lanes(std::int64_t* __restrict x, int up, const std::int64_t* divisor,
                             const RoundingRule& rounding) {
   const RoundingRule rule = rounding;
@@ -182,13 +182,13 @@ HM_WIDEST void clamp_lanes(std::int64_t* __restrict x, std::int64_t bound) {
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = x[l] < -bound ? -bound : x[l] > bound ? bound : x[l];
 }
 
-HM_WIDEST void swing_lanes(const std::int64_t* x, LaneSwings& swings) {
-  std::int64_t least = swings.least, largest = swings.largest;
+HM_WIDEST void widen_swing(const std::int64_t* x, Swing& swing) {
+  std::int64_t least = swing.least, largest = swing.largest;
   for (std::size_t l = 0; l < lane_count; ++l) {
     least = x[l] < least ? x[l] : least;
     largest = x[l] > largest ? x[l] : largest;
   }
-  swings = {least, largest};
+  swing = {least, largest};
 }
 
 HM_WIDEST std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const ShiftRounding& to_state,

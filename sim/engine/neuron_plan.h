@@ -6,8 +6,8 @@
 
 namespace hopmesh::engine {
 
-struct Plan : spec::Points {
-  Plan(const spec::ArraySpec& array, const spec::Topology& topology);
+struct NeuronPlan : spec::Points {
+  NeuronPlan(const spec::ArraySpec& array, const spec::Topology& topology);
 
   spec::Formats formats; ///< with the accumulator as built
   spec::Schedule schedule;

@@ -1,5 +1,5 @@
-// Steps of the generic core over sixteen lanes: plain loops that the compiler turns into wide instructions,
-// once for each kind of processor.
+// Arithmetic on sixteen rows side by side, in 64 bits, for the generic core and the clock-stepped engine:
+// plain loops that the compiler turns into wide instructions, once for each kind of processor.
 #pragma once
 
 #include "sim/engine/overflow.h"
@@ -11,7 +11,7 @@ namespace hopmesh::engine {
 
 inline constexpr std::size_t lane_count = 16;
 
-struct LaneSwings {
+struct Swing {
   std::int64_t least, largest;
 };
 
@@ -42,7 +42,7 @@ void limit_lanes(std::int64_t* x, const Limit& limit);
 /// x <- one, 0 or -one, by its sign.
 void sign_lanes(std::int64_t* x, std::int64_t one);
 void clamp_lanes(std::int64_t* x, std::int64_t bound);
-void swing_lanes(const std::int64_t* x, LaneSwings& swings);
+void widen_swing(const std::int64_t* x, Swing& swing);
 /// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.
 std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const ShiftRounding& to_state,
                           const ShiftRounding& to_link, std::int32_t* state, std::int32_t* link);
