@@ -3,7 +3,6 @@
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
 #include "sim/engine/kernels/fast_core.h"
-#include "sim/engine/kernels/fast_plan.h"
 #include "tests/support/slow_fixed.h"
 
 #include <cstdio>
@@ -47,7 +46,7 @@ const std::vector<std::string>& kernels_here() {
 }
 
 std::string why_not_fast(const spec::ArraySpec& array, const spec::Topology& topology) {
-  return engine::why_no_kernel(engine::Plan(array, topology));
+  return engine::why_generic(engine::NeuronPlan(array, topology));
 }
 
 spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser,

@@ -41,6 +41,14 @@ const std::map<std::string, Rooms> allowed = {
       "sim/cosim", "sim/networks", "sim/study"}},
 };
 
+// The machines of the engine: who may include whom. All of them may include the engine's root; of the root,
+// only choose.cpp includes machines. The clock-stepped machine computes with the generic one's arithmetic.
+const std::map<std::string, Rooms> machines = {
+    {"sim/engine/generic", {}},
+    {"sim/engine/kernels", {}},
+    {"sim/engine/clocked", {"sim/engine/generic"}},
+};
+
 // Oracles judge the models, so they derive everything by themselves from the pages: what the files whose
 // paths begin so may reach, beside each other. Of spec that is the description of an array and its order of
 // firing, and none of the facts that models share beyond that.
@@ -88,6 +96,19 @@ bool may_include(const std::string& room, const std::string& included) {
   return other == room || others.count(other) || others.count(included);
 }
 
+/// "" for a file that belongs to no machine of the engine.
+std::string machine_of(const std::string& path) {
+  const std::string folder = path.substr(0, path.rfind('/'));
+  return machines.count(folder) ? folder : "";
+}
+
+/// Asked of files of the engine.
+bool may_include_machine(const std::string& path, const std::string& included) {
+  const std::string own = machine_of(path), other = machine_of(included);
+  if (other.empty() || other == own) return true;
+  return own.empty() ? path == "sim/engine/choose.cpp" : machines.at(own).count(other) > 0;
+}
+
 bool may_know(const std::string& room, const std::string& header) {
   if (room == "tests") return true;
   if (room == "firmware") return header == "stdint.h";
@@ -124,6 +145,8 @@ void judge_include(const TreeFile& file, const std::string& included) {
   EXPECT_FALSE(room_of(included).empty())
       << file.path << ": \"" << included << "\" is not written from the root of the tree";
   EXPECT_TRUE(may_include(room_of(file.path), included)) << file.path << " includes " << included;
+  EXPECT_TRUE(room_of(file.path) != "sim/engine" || may_include_machine(file.path, included))
+      << file.path << " includes " << included;
 }
 
 std::size_t firmware_floor(const std::string& unit) {
@@ -194,6 +217,9 @@ TEST(Arrows, theTableRefusesWhatItShould) {
   EXPECT_FALSE(may_include("sim/reference", "rtl_model/systemc/device.h"));
   EXPECT_FALSE(may_include("sim/study", "sim/cli/options.h"));
   EXPECT_FALSE(may_include("sim/files", "tests/support/dut.h"));
+  EXPECT_FALSE(may_include_machine("sim/engine/kernels/kernel.h", "sim/engine/generic/lane_arithmetic.h"));
+  EXPECT_FALSE(may_include_machine("sim/engine/engine.cpp", "sim/engine/clocked/clocked.h"));
+  EXPECT_TRUE(may_include_machine("sim/engine/clocked/clocked_beats.h", "sim/engine/generic/drive_path.h"));
   EXPECT_FALSE(may_know("sim/study", "systemc"));
   EXPECT_FALSE(may_know("firmware", "stdlib.h"));
   EXPECT_TRUE(may_know("sim/study", "vector"));

@@ -1,6 +1,6 @@
 #include "sim/engine/clocked/clocked.h"
 
-#include "sim/engine/rounding.h"
+#include "sim/engine/overflow.h"
 #include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {
@@ -47,7 +47,7 @@ void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
   enter(Segment::start);
 }
 
-// Most clocks lie inside a phase and do little; these have a short way.
+// Most clocks lie inside a phase and add one tap: they take this short way.
 void ClockedEngine::step() {
   if (plain_.beat == nullptr || beat_ == 0 || beat_ + 1 >= length_) return step(1);
   const ClockedBeat& b = plain_.beat[beat_];

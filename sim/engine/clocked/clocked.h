@@ -21,17 +21,18 @@ class ClockedEngine {
 
   /// START: cycle 0 is the one that now begins.
   void start(std::uint32_t threshold, std::uint32_t max_sweeps);
-  /// One clock; nothing when idle.
+  /// Goes one clock on; does nothing when idle.
   void step();
-  /// `clocks` of them, or up to the end of the run. Only what stands after the last is worked out.
+  /// Goes `clocks` clocks on, or to the end of the run where that comes before. Registers hold what they hold
+  /// after the last of these clocks; values that nobody can see in between are left out.
   void step(std::uint64_t clocks);
 
-  /// Of the cycle that comes next; a number of spec::Segment.
+  /// Segment (a number of spec::Segment) and beat of the cycle that comes next.
   int segment() const { return segment_; }
   std::uint64_t beat() const { return beat_; }
   bool busy() const { return segment_ != spec::Segment::idle; }
   bool done() const { return done_; }
-  /// Of the run, up to now: whole sweeps, and what the last of them came to; cycles of the clock.
+  /// The run up to now: complete sweeps, the largest change of the last one, cycles of the clock.
   const spec::Relaxation& result() const { return result_; }
   const spec::CycleModel& cycles() const { return cycles_; }
   const spec::Formats& formats() const { return plan_.formats; } ///< with the accumulator as built
@@ -65,15 +66,16 @@ class ClockedEngine {
   const spec::Topology topology_;
   const spec::Phases phases_;
   const spec::CycleModel cycles_;
-  const Plan plan_;
+  const NeuronPlan plan_;
   const ClockedLayout layout_;
   const std::uint64_t normalise_cycles_;
   ClockedBeats beats_;
-  std::vector<std::uint32_t> row_; ///< of a neuron
+  std::vector<std::uint32_t> row_; ///< of each neuron
   int segment_ = spec::Segment::idle;
-  std::uint64_t beat_ = 0, length_ = 0; ///< of the segment
+  std::uint64_t beat_ = 0, length_ = 0; ///< clocks of the segment that are over, and all of them
   Firing firing_{0, 0, 0};
-  /// The phase at hand, where each clock is one tap of one stretch of rows: what step() then needs.
+  /// What step() needs in a phase whose clocks each add one tap to one stretch of rows; `beat` is null
+  /// elsewhere.
   struct Plain {
     const ClockedBeat* beat = nullptr;
     ClockedBeats::TapAdder add = nullptr;
@@ -83,7 +85,7 @@ class ClockedEngine {
   } plain_;
   bool done_ = false;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
-  std::int64_t largest_ = 0; ///< |Delta V| of the sweep at hand: the convergence detector
+  std::int64_t largest_ = 0; ///< |Delta V| of this sweep so far, as the convergence detector has it
   spec::Relaxation result_;
 };
 

@@ -1,21 +1,20 @@
 #include "sim/engine/clocked/clocked_beats.h"
 
 #include "sim/engine/clocked/clocked_loops.h"
-#include "sim/engine/rounding.h"
 
 #include <cstdlib>
 
 namespace hopmesh::engine {
 
-ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
-    : plan_(plan), layout_(layout), path_(plan),
-      to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
-      to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)),
+ClockedBeats::ClockedBeats(const NeuronPlan& plan, const ClockedLayout& layout)
+    : plan_(plan), layout_(layout), path_(plan), wide_sum_(plan), sum_limit_(plan.formats.accumulator),
+      to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
+      to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)),
       short_(plan.formats.weight.width + plan.formats.link.width <= 32),
       plain_sums_(plan.exact && plan.product_up == 0), narrow_sums_(!plan.exact && plan.sum_up <= 52),
       per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
       lanes_(static_cast<std::size_t>(plan.lanes)), in_(layout.inputs, 0) {
-  if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
+  if (narrow_sums_) to_sum_ = shift_rounding(plan.sum_up, plan.formats.accumulator.rounding);
   at.weight.assign(layout.weights, 0);
   at.bias.assign(layout.rows, 0);
   at.state = at.bias;
@@ -28,8 +27,7 @@ ClockedBeats::ClockedBeats(const Plan& plan, const ClockedLayout& layout)
 void ClockedBeats::load(std::size_t cell, std::size_t p, std::int32_t state) {
   const std::size_t row = layout_.row(cell, p);
   at.state[row] = state;
-  at.link[row] = static_cast<std::int32_t>(
-      round_shift<std::int64_t>(state, plan_.link_down, plan_.formats.link.rounding));
+  at.link[row] = static_cast<std::int32_t>(rounded<std::int64_t>(state, to_link_));
 }
 
 void ClockedBeats::begin_norms(const ClockedBank& bank) {
@@ -48,7 +46,7 @@ void ClockedBeats::add_norms(const ClockedBank& bank, std::uint64_t first, std::
 void ClockedBeats::invert(const ClockedBank& bank) {
   for (std::size_t r = bank.first_row; r < bank.first_row + per_cell_ * bank.width; ++r) {
     const DrivePath::Inverse inverse = path_.invert(static_cast<std::uint64_t>(at.norm[r]));
-    if (at.norm[r] != 0) at.reciprocal[r] = inverse.reciprocal; // a row of zeros divides nothing
+    if (at.norm[r] != 0) at.reciprocal[r] = inverse.reciprocal; // else it keeps what it has, as in hardware
     multiplier_[r] = inverse.multiplier;
     places_[r] = inverse.places;
   }
@@ -67,10 +65,8 @@ void ClockedBeats::take_links(const ClockedBank& bank, bool neighbours) {
 
 void ClockedBeats::begin_sums(const ClockedBank& bank, std::size_t p) {
   const std::size_t row = bank.first_row + p * bank.width;
-  const spec::NumberFormat& f = plan_.formats.accumulator;
   if (plan_.exact) return engine::begin_sums(&at.bias[row], -plan_.bias_down, bank.width, &at.sum[row]);
-  for (std::size_t r = row; r < row + bank.width; ++r)
-    at.sum[r] = limit_to_format(round_shift<Int128>(at.bias[r], plan_.bias_down, f.rounding), f);
+  for (std::size_t r = row; r < row + bank.width; ++r) at.sum[r] = wide_sum_.begin(at.bias[r]);
 }
 
 // A rounding accumulator writes its register once a beat; an exact one may as well take all beats at once.
@@ -115,17 +111,11 @@ void ClockedBeats::add_rounded(const Taps& taps, std::size_t rows, std::int64_t*
     if (narrow_sums_ && count == lane_count) {
       shift_and_add_lanes(sums + r, plan_.sum_up, products, plan_.product_up);
       round_lanes(sums + r, to_sum_);
-      limit_lanes(sums + r, plan_.formats.accumulator);
+      limit_lanes(sums + r, sum_limit_);
     } else {
-      for (std::size_t l = 0; l < count; ++l) sums[r + l] = rounded_sum(sums[r + l], products[l]);
+      for (std::size_t l = 0; l < count; ++l) sums[r + l] = wide_sum_.add(sums[r + l], products[l]);
     }
   }
-}
-
-std::int64_t ClockedBeats::rounded_sum(std::int64_t sum, std::int64_t products) const {
-  const spec::NumberFormat& f = plan_.formats.accumulator;
-  const Int128 fine = shifted_up<Int128>(sum, plan_.sum_up) + shifted_up<Int128>(products, plan_.product_up);
-  return limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
 }
 
 void ClockedBeats::normalise(std::size_t first, std::size_t last) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/engine/generic/lanes.h"
+#include "sim/engine/generic/lane_arithmetic.h"
 
 namespace hopmesh::engine {
 
@@ -28,12 +28,14 @@ struct ClockedBank {
   std::size_t first_weight = 0; ///< of [p][tap][place]
   /// reach[b]: places whose rows have more than b beats. Rows of exactly b beats: [reach[b], reach[b - 1]).
   std::vector<std::size_t> reach;
-  std::vector<ClockedBeat> beat; ///< of its phases, clock by clock
-  /// For each neighbour, all places. One that has fewer reads its own rows, and weighs them with zero.
+  std::vector<ClockedBeat> beat; ///< of each clock of its phases
+  /// For the k-th neighbour of every place. A place with fewer neighbours reads its own rows, with weight
+  /// zero.
   std::vector<std::vector<LinkRun>> runs;
 
   std::size_t beats() const { return reach.size() - 1; }
-  /// From the inputs of a tap to those of the next: room for what copy_runs writes too much.
+  /// From the inputs of a tap to those of the next; leaves room for the lanes that copy_runs writes beyond a
+  /// run.
   std::size_t input_stride() const { return width + lane_count; }
   /// Places whose rows have from `least` to `most` beats, as a stretch [first, last).
   std::pair<std::size_t, std::size_t> with_beats(std::int64_t least, std::int64_t most) const {

@@ -4,14 +4,6 @@
 
 namespace hopmesh::engine {
 
-namespace {
-
-[[gnu::always_inline]] inline std::int64_t rounded(std::int64_t x, const LaneRounding& r) {
-  return (x + r.add + ((x >> 63) & r.add_if_negative) + ((x >> r.places) & r.add_if_odd)) >> r.places;
-}
-
-} // namespace
-
 // Loops over rows stand by themselves: inside another loop the compiler would look for a nest to interchange.
 HM_WIDEST void add_tap(const std::int32_t* __restrict weights, const std::int32_t* __restrict links,
                        std::size_t rows, std::int64_t* __restrict sums) {
@@ -23,7 +15,7 @@ HM_WIDEST void add_short_tap(const std::int32_t* __restrict weights, const std::
   for (std::size_t r = 0; r < rows; ++r) sums[r] += std::int64_t{weights[r] * links[r]};
 }
 
-// Many clocks at once: sums stay in registers.
+// Many clocks at once: the sums stay in the registers of the processor.
 HM_WIDEST void add_products(const std::int32_t* __restrict weights, std::size_t weight_stride,
                             const std::int32_t* __restrict links, std::size_t link_stride, std::size_t taps,
                             std::int64_t* __restrict sums) {
@@ -60,19 +52,19 @@ HM_WIDEST void begin_sums(const std::int32_t* __restrict biases, int up, std::si
 }
 
 HM_WIDEST void pull(const std::int64_t* __restrict drives, const std::int32_t* __restrict states,
-                    std::int64_t one, const LaneRounding& rounding, std::size_t rows,
+                    std::int64_t one, const ShiftRounding& rounding, std::size_t rows,
                     std::int64_t* __restrict changes) {
-  const LaneRounding to_state = rounding;
+  const ShiftRounding to_state = rounding;
   for (std::size_t r = 0; r < rows; ++r) {
     const std::int64_t u = drives[r], V = states[r], R = u >= 0 ? one - V : one + V;
     changes[r] = rounded(R * u, to_state);
   }
 }
 
-HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const LaneRounding& rounding,
+HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const ShiftRounding& rounding,
                                    std::size_t rows, std::int32_t* __restrict states,
                                    std::int32_t* __restrict links) {
-  const LaneRounding to_link = rounding;
+  const ShiftRounding to_link = rounding;
   std::int64_t largest = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const std::int64_t change = changes[r], V = states[r] + change, size = change < 0 ? -change : change;

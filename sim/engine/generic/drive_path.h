@@ -1,32 +1,32 @@
-// From s and N to u: sixteen rows at a time in 64 bits where those hold every code, one by one in 128 where
-// not.
+// From s and N to u: sixteen rows at a time where 64 bits hold every code on the way, else row by row in 128
+// bits.
 #pragma once
 
-#include "sim/engine/generic/lanes.h"
-#include "sim/engine/plan.h"
+#include "sim/engine/generic/lane_arithmetic.h"
+#include "sim/engine/neuron_plan.h"
 
 namespace hopmesh::engine {
 
 class DrivePath {
  public:
-  explicit DrivePath(const Plan& plan);
+  explicit DrivePath(const NeuronPlan& plan);
 
-  /// What a row keeps of its N: the register r; r as s is multiplied by it (where all rows share one point,
-  /// moved up to that); and how far the product is moved down. Zeros where N is, and without reciprocals.
+  /// What a row keeps of its N; zeros where N is zero, and in arrays without reciprocals.
   struct Inverse {
-    std::int64_t reciprocal = 0, multiplier = 0;
-    int places = 0;
+    std::int64_t reciprocal = 0; ///< the register r
+    std::int64_t multiplier = 0; ///< of s: r, or r moved up to the one point that all rows share
+    int places = 0;              ///< by which the product moves down to the drive's last place
   };
   Inverse invert(std::uint64_t norm) const;
 
-  /// N and what Inverse holds of rows side by side.
+  /// N, and what Inverse holds, of rows side by side.
   struct Rows {
     const std::int64_t *norm, *multiplier;
     const int* places;
   };
   /// u <- the limited drives of lane_count rows.
   void drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const;
-  /// Of one row.
+  /// The limited drive of one row.
   std::int64_t drive(const Rows& row, std::int64_t sum) const;
 
  private:
@@ -34,11 +34,12 @@ class DrivePath {
   bool multiplies_narrowly() const;
   bool multiplies_row_by_row() const;
 
-  const Plan& plan_;
-  const int norm_bits_; ///< of the largest N that these formats can make
+  const NeuronPlan& plan_;
+  const RoundingRule rule_; ///< of the drive
+  const Limit limit_;
   bool narrow_ = false; ///< s stays within 63 bits on its way to u, and all reciprocals share a point
-  bool apart_ = false;  ///< it stays so only if every row keeps a point of its own
-  LaneRounding to_drive_;
+  bool apart_ = false;  ///< s stays so only if every reciprocal keeps a point of its own
+  ShiftRounding to_drive_;
 };
 
 } // namespace hopmesh::engine

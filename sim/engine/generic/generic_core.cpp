@@ -1,10 +1,11 @@
 // Any array that the description allows: rows in lanes, 64 bits where they hold every code that the memories
 // can hold, 128 where a format asks for them.
+#include "sim/engine/generic/generic_core.h"
+
 #include "sim/engine/aligned.h"
-#include "sim/engine/core.h"
 #include "sim/engine/generic/drive_path.h"
-#include "sim/engine/generic/lanes.h"
-#include "sim/engine/rounding.h"
+#include "sim/engine/generic/lane_arithmetic.h"
+#include "sim/engine/generic/wide_sum.h"
 
 #include <cstdlib>
 
@@ -15,12 +16,13 @@ namespace {
 constexpr std::size_t L = block_lanes;
 static_assert(L == lane_count);
 
-class GenericCore : public Core {
+class GenericCore : public SweepCore {
  public:
-  GenericCore(const Plan& plan, const Layout& layout)
+  GenericCore(const NeuronPlan& plan, const Layout& layout)
       : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), path_(plan),
-        to_state_(lane_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
-        to_link_(lane_rounding(plan.link_down, plan.formats.link.rounding)) {
+        wide_sum_(plan), sum_limit_(plan.formats.accumulator),
+        to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
+        to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)) {
     const std::size_t neurons = layout.slots() * per_cell_;
     first_weight_.assign(1, 0);
     for (std::uint32_t n : layout.neighbours)
@@ -34,9 +36,9 @@ class GenericCore : public Core {
     places_.assign(neurons, 0);
     narrow_sums_ = !plan.exact && plan.sum_up <= 52;
     narrow_bias_ = std::abs(plan.bias_down) <= 30;
-    if (narrow_sums_) to_sum_ = lane_rounding(plan.sum_up, plan.formats.accumulator.rounding);
+    if (narrow_sums_) to_sum_ = shift_rounding(plan.sum_up, plan.formats.accumulator.rounding);
     if (narrow_bias_)
-      to_bias_ = lane_rounding(std::max(plan.bias_down, 0), plan.formats.accumulator.rounding);
+      to_bias_ = shift_rounding(std::max(plan.bias_down, 0), plan.formats.accumulator.rounding);
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
@@ -51,8 +53,7 @@ class GenericCore : public Core {
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
     state_[place(slot, p)] = code;
-    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(
-        round_shift<std::int64_t>(code, plan_.link_down, plan_.formats.link.rounding));
+    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(rounded<std::int64_t>(code, to_link_));
   }
   std::int32_t state(std::size_t slot, std::size_t p) const override { return state_[place(slot, p)]; }
 
@@ -60,11 +61,11 @@ class GenericCore : public Core {
     for (std::size_t b = first; b < last; ++b)
       for (std::size_t p = 0; p < per_cell_; ++p) prepare_rows(b, p);
   }
-  void fire(std::size_t first, std::size_t last, Swept& swept) override {
+  void fire(std::size_t first, std::size_t last, SweepRecord& record) override {
     std::vector<std::int32_t> in(plan_.most_taps * L);
     for (std::size_t b = first; b < last; ++b) {
       gather(b, in.data());
-      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, in.data(), swept);
+      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, in.data(), record);
     }
   }
   void end_sweep() override {
@@ -94,26 +95,28 @@ class GenericCore : public Core {
   void prepare_rows(std::size_t b, std::size_t p);
   void invert(std::size_t at, std::uint64_t norm);
   void gather(std::size_t b, std::int32_t* in) const;
-  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept);
+  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record);
   void sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps, const std::int32_t* bias,
                    std::int64_t* sum) const;
   void begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const;
   void sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                      const std::int32_t* bias, std::int64_t* sum) const;
 
-  const Plan& plan_;
+  const NeuronPlan& plan_;
   const Layout& layout_;
   const std::size_t per_cell_;
   const DrivePath path_;
-  const LaneRounding to_state_, to_link_;
-  LaneRounding to_sum_, to_bias_;
+  const WideSum wide_sum_;
+  const Limit sum_limit_;
+  const ShiftRounding to_state_, to_link_;
+  ShiftRounding to_sum_, to_bias_;
   bool narrow_sums_ = false, narrow_bias_ = false; ///< a rounding accumulator stays within 63 bits
   std::vector<std::size_t> first_weight_;          ///< of a block
   AlignedVector<std::int32_t> weight_;             ///< [block][p][tap][lane]
   AlignedVector<std::int32_t> bias_, state_;       ///< [block][p][lane]
   AlignedVector<std::int32_t> link_, next_link_;   ///< [p][slot]
   AlignedVector<std::int64_t> norm_, reciprocal_;  ///< [block][p][lane]
-  std::vector<int> places_;                        ///< that s times the reciprocal is moved down
+  std::vector<int> places_;                        ///< Inverse::places of each row
   std::array<AlignedVector<std::int32_t>, 2> kept_;
 };
 
@@ -149,7 +152,7 @@ void GenericCore::gather(std::size_t b, std::int32_t* in) const {
 }
 
 // Coloured and sequential: the cell's next neuron reads what this one has become.
-void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swept& swept) {
+void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record) {
   alignas(64) std::int64_t sum[L], u[L];
   const std::size_t taps = taps_of(layout_.neighbours[b]), first = (b * per_cell_ + p) * L;
   const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L];
@@ -158,14 +161,14 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swep
   else
     sum_with_loss(w, in, taps, &bias_[first], sum);
   path_.drives({&norm_[first], &reciprocal_[first], &places_[first]}, sum, u);
-  spec::Extremes& x = swept.extremes;
-  LaneSwings sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
-  swing_lanes(sum, sums);
-  swing_lanes(u, driven);
+  spec::Extremes& x = record.extremes;
+  Swing sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
+  widen_swing(sum, sums);
+  widen_swing(u, driven);
   x = {sums.least, sums.largest, driven.least, driven.largest};
   std::int32_t* link = &(synchronous() ? next_link_ : link_)[p * layout_.slots() + b * L];
-  swept.largest =
-      std::max(swept.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
+  record.largest =
+      std::max(record.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
   if (!synchronous()) std::copy_n(link, L, in + p * L);
 }
 
@@ -178,45 +181,31 @@ void GenericCore::sum_exactly(const std::int32_t* w, const std::int32_t* in, std
 }
 
 void GenericCore::begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const {
-  const spec::NumberFormat& f = plan_.formats.accumulator;
   if (narrow_bias_) {
     const std::int64_t up = std::int64_t{1} << std::max(-plan_.bias_down, 0);
     for (std::size_t l = 0; l < L; ++l) sum[l] = bias[l] * up;
     round_lanes(sum, to_bias_);
-    return limit_lanes(sum, f);
+    return limit_lanes(sum, sum_limit_);
   }
-  for (std::size_t l = 0; l < L; ++l)
-    sum[l] = limit_to_format(round_shift<Int128>(bias[l], plan_.bias_down, f.rounding), f);
+  for (std::size_t l = 0; l < L; ++l) sum[l] = wide_sum_.begin(bias[l]);
 }
 
 // The register is written once a beat, and each time rounded.
 void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, std::size_t taps,
                                 const std::int32_t* bias, std::int64_t* sum) const {
-  const spec::NumberFormat& f = plan_.formats.accumulator;
   const auto lanes = static_cast<std::size_t>(plan_.lanes);
   begin_with_loss(bias, sum);
-  if (narrow_sums_) return add_lane_groups(w, in, taps, lanes, plan_.product_up, to_sum_, f, sum);
+  if (narrow_sums_) return add_lane_groups(w, in, taps, lanes, plan_.product_up, to_sum_, sum_limit_, sum);
   for (std::size_t t = 0; t < taps; t += lanes) {
     alignas(64) std::int64_t products[L] = {};
     add_lane_products(w + t * L, in + t * L, std::min(taps - t, lanes), products);
-    for (std::size_t l = 0; l < L; ++l) {
-      const Int128 fine =
-          shifted_up<Int128>(sum[l], plan_.sum_up) + shifted_up<Int128>(products[l], plan_.product_up);
-      sum[l] = limit_to_format(round_shift(fine, plan_.sum_up, f.rounding), f);
-    }
+    for (std::size_t l = 0; l < L; ++l) sum[l] = wide_sum_.add(sum[l], products[l]);
   }
 }
 
 } // namespace
 
-spec::Extremes Swept::all_extremes() const {
-  spec::Extremes all = extremes;
-  for (std::size_t l = 0; l < 8; ++l)
-    all.merge({swings.least_sum[l], swings.largest_sum[l], swings.least_drive[l], swings.largest_drive[l]});
-  return all;
-}
-
-std::unique_ptr<Core> make_generic_core(const Plan& plan, const Layout& layout) {
+std::unique_ptr<SweepCore> make_generic_core(const NeuronPlan& plan, const Layout& layout) {
   return std::make_unique<GenericCore>(plan, layout);
 }
 

@@ -1,8 +1,9 @@
 #include "sim/engine/kernels/fast_core.h"
 
 #include "sim/engine/aligned.h"
+#include "sim/engine/division.h"
 #include "sim/engine/kernels/fast_layout.h"
-#include "sim/engine/kernels/fast_plan.h"
+#include "sim/engine/kernels/kernel_fit.h"
 
 #include <atomic>
 #include <cstring>
@@ -13,12 +14,11 @@ namespace {
 
 constexpr std::size_t L = block_lanes;
 
-class FastCore : public Core {
+class FastCore : public SweepCore {
  public:
-  FastCore(const Plan& plan, const Layout& layout, const KernelSet& kernels)
+  FastCore(const NeuronPlan& plan, const Layout& layout, const KernelSet& kernels)
       : plan_(plan), layout_(layout), kernels_(kernels),
-        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), norm_bits_(norm_bits(plan)),
-        at_(layout, per_cell_) {
+        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), at_(layout, per_cell_) {
     const std::size_t neurons = layout.slots() * per_cell_, slots = layout.slots() + 2 * L;
     weight_.assign(at_.first_weight.back(), 0);
     bias_.assign(neurons, 0);
@@ -43,10 +43,7 @@ class FastCore : public Core {
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
     state_[place(slot, p)] = code;
-    const KernelRounding& r = args_.link;
-    const std::int64_t x = code;
-    const std::int64_t sum = x + r.add + (x < 0 ? r.add_if_negative : 0) + ((x >> r.places) & r.add_if_odd);
-    const auto link = static_cast<std::uint32_t>(sum >> r.places) & 0xFFFFu;
+    const auto link = static_cast<std::uint32_t>(rounded<std::int64_t>(code, args_.link)) & 0xFFFFu;
     if (per_cell_ == 1 || p == 2)
       zz_[slot] = link | link << 16;
     else
@@ -56,8 +53,8 @@ class FastCore : public Core {
 
   void prepare(std::size_t first, std::size_t last) override;
   void begin_run() override;
-  void fire(std::size_t first, std::size_t last, Swept& swept) override {
-    fire_(args_, first, last, swept.swings);
+  void fire(std::size_t first, std::size_t last, SweepRecord& record) override {
+    fire_(args_, first, last, record.lanes);
   }
   void end_sweep() override {
     if (!synchronous()) return;
@@ -87,11 +84,10 @@ class FastCore : public Core {
   void point_at_links();
   void invert(std::size_t at, std::uint64_t norm);
 
-  const Plan& plan_;
+  const NeuronPlan& plan_;
   const Layout& layout_;
   const KernelSet& kernels_;
   const std::size_t per_cell_;
-  const int norm_bits_;
   const FastLayout at_;
   std::atomic<std::uint32_t> largest_row_{0};
   AlignedVector<std::uint32_t> weight_;
@@ -118,12 +114,12 @@ void FastCore::set_arguments() {
   args_.state_fraction = f.state.fraction_bits();
   args_.one_drive = plan_.one_drive;
   const Normalise how = normalise_of(plan_);
-  if (how == Normalise::scale) args_.drive = kernel_rounding(plan_.scaled_down, f.drive.rounding);
-  if (how == Normalise::multiply) args_.drive = kernel_rounding(multiplier_places(plan_), f.drive.rounding);
+  if (how == Normalise::scale) args_.drive = shift_rounding(plan_.scaled_down, f.drive.rounding);
+  if (how == Normalise::multiply) args_.drive = shift_rounding(plan_.multiplier_places, f.drive.rounding);
   if (how == Normalise::divide) args_.division = kernel_division(plan_.ratio_up, f.drive.rounding);
   args_.state = state_.data();
-  args_.state_rounding = kernel_rounding(f.drive.fraction_bits(), f.state.rounding);
-  args_.link = kernel_rounding(plan_.link_down, f.link.rounding);
+  args_.state_rounding = shift_rounding(f.drive.fraction_bits(), f.state.rounding);
+  args_.link = shift_rounding(plan_.link_down, f.link.rounding);
   point_at_links();
 }
 
@@ -134,14 +130,13 @@ void FastCore::point_at_links() {
   args_.next_zz = synchronous() ? next_zz_.data() : zz_.data();
 }
 
-// r = floor(2^(B + M - 2) / N), B the bits of N: moved up to the point that the widest N would give.
+// The reciprocal is moved up to the point that the widest N would give.
 void FastCore::invert(std::size_t at, std::uint64_t norm) {
   if (norm == 0) {
     multiplier_[at] = 0; // u = 0: an empty row stays as it is
   } else if (plan_.normaliser == spec::Normaliser::reciprocal) {
-    const int bits = bit_length(norm);
-    const std::uint64_t r = (std::uint64_t{1} << (bits + plan_.reciprocal_bits - 2)) / norm;
-    multiplier_[at] = static_cast<std::int64_t>(r << (norm_bits_ - bits));
+    const std::int64_t r = reciprocal(norm, plan_.reciprocal_bits);
+    multiplier_[at] = r << (plan_.norm_bits - bit_length(norm));
   } else {
     const double inverse = 1.0 / static_cast<double>(norm);
     std::memcpy(&multiplier_[at], &inverse, sizeof inverse);
@@ -190,7 +185,8 @@ const KernelSet* kernel_set(const std::string& name) {
   return name.empty() || name == "portable" ? &portable_kernels : nullptr;
 }
 
-std::unique_ptr<Core> make_fast_core(const Plan& plan, const Layout& layout, const KernelSet& kernels) {
+std::unique_ptr<SweepCore> make_fast_core(const NeuronPlan& plan, const Layout& layout,
+                                          const KernelSet& kernels) {
   return std::make_unique<FastCore>(plan, layout, kernels);
 }
 

@@ -1,8 +1,8 @@
 // Arrays with 16-bit weights and links, sixteen cells at a time, in the widest registers there are.
 #pragma once
 
-#include "sim/engine/core.h"
 #include "sim/engine/kernels/kernel.h"
+#include "sim/engine/sweep_core.h"
 
 #include <string>
 
@@ -12,6 +12,7 @@ namespace hopmesh::engine {
 const KernelSet* kernel_set(const std::string& name);
 
 /// The array must fit the kernels.
-std::unique_ptr<Core> make_fast_core(const Plan& plan, const Layout& layout, const KernelSet& kernels);
+std::unique_ptr<SweepCore> make_fast_core(const NeuronPlan& plan, const Layout& layout,
+                                          const KernelSet& kernels);
 
 } // namespace hopmesh::engine

@@ -28,14 +28,14 @@ class FastLayout {
     return tap_place[neighbours[slot / block_lanes]][at * per_cell_ + q];
   }
 
-  std::vector<std::uint32_t> neighbours;             ///< [blocks] that each lane of the block has room for
-  std::vector<std::uint32_t> first_column;           ///< of a slot, in `column`
-  std::vector<std::uint16_t> column;                 ///< in which a cell's k-th neighbour stands in its block
+  std::vector<std::uint32_t> neighbours;   ///< [blocks] for which each lane of the block has room
+  std::vector<std::uint32_t> first_column; ///< of each slot, in `column`
+  std::vector<std::uint16_t> column;       ///< of its block, in which the k-th neighbour of a cell stands
   std::vector<std::vector<std::uint32_t>> tap_place; ///< by neighbours of a block: place of a tap in its row
   std::vector<std::size_t> first_weight;             ///< [blocks + 1]
   std::vector<std::uint32_t> first_source, far_slot;
   std::vector<Source> source;
-  std::vector<std::uint8_t> waits; ///< [blocks] does it read what the two blocks before it write?
+  std::vector<std::uint8_t> waits; ///< [blocks] does the block read what one of the two before it writes?
 
  private:
   std::size_t pairs(std::size_t n) const {

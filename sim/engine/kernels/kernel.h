@@ -3,8 +3,10 @@
 // instruction sets, and the processor at hand decides at run time.
 #pragma once
 
+#include "sim/engine/lane_extremes.h"
+#include "sim/engine/rounding.h"
+
 #include <cstddef>
-#include <cstdint>
 
 namespace hopmesh::engine {
 
@@ -17,17 +19,10 @@ struct Source {
   std::uint8_t lane[16];
 };
 
-/// x * 2^-places rounded: add, plus what a negative x and an odd result get, then a floor.
-struct KernelRounding {
-  std::int64_t add = 0, add_if_negative = 0, add_if_odd = 0;
-  int places = 0;
-  bool plain() const { return add_if_negative == 0 && add_if_odd == 0; }
-};
-
-/// A quotient as a floor of doubles: the sign is turned (flip) before and after, and `half` added between.
+/// s 2^ratio_up / N rounded, as a floor of doubles: what is added before it to the dividend and to the
+/// quotient, always and where the dividend is negative.
 struct KernelDivision {
-  std::int64_t flip_by_sign = 0, flip_always = 0; ///< 0 or -1
-  double half = 0;
+  double to_dividend = 0, to_dividend_if_negative = 0, to_quotient = 0, to_quotient_if_negative = 0;
   int ratio_up = 0;
 };
 
@@ -36,7 +31,7 @@ struct KernelArgs {
   const std::size_t* first_weight;   ///< of a block, in `weight`
   const std::uint32_t* first_source; ///< of a block, in `source`
   const Source* source;
-  const std::uint8_t* waits; ///< does a block read one of the two before it? (not within a group)
+  const std::uint8_t* waits; ///< does a block read one of the two before it? (never within a group)
   const std::uint32_t* far_slot;
   /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
   /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own
@@ -48,22 +43,17 @@ struct KernelArgs {
   std::int32_t* state;
   /// Links by slot: x and y in one word; z in both halves of another, or x where it is alone.
   const std::uint32_t *xy, *zz;
-  std::uint32_t *next_xy, *next_zz; ///< the same, but in synchronous arrays
+  std::uint32_t *next_xy,
+      *next_zz; ///< where new links go: xy and zz themselves, except in synchronous arrays
   bool synchronous;
   int bias_up, state_fraction;
   std::int64_t one_drive;
-  KernelRounding drive, state_rounding, link;
+  ShiftRounding drive, state_rounding, link;
   KernelDivision division;
 };
 
-/// Running extremes, lane by lane; the kernel widens them. |Delta V| is unsigned: it may be 2^31.
-struct alignas(64) KernelSwings {
-  std::uint32_t largest_change[16] = {};
-  std::int64_t least_sum[8] = {}, largest_sum[8] = {}, least_drive[8] = {}, largest_drive[8] = {};
-};
-
 using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,
-                            KernelSwings& swings);
+                            LaneExtremes& extremes);
 /// Sum of |weight| of every row of a block: [p][lane].
 using RowKernel = void (*)(const KernelArgs& args, std::size_t block, std::uint32_t* sums);
 

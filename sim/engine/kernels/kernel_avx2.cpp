@@ -129,7 +129,7 @@ struct Avx2 {
   }
   static Words narrow(const Longs& low, const Longs& high) { return {{narrow_half(low), narrow_half(high)}}; }
 
-  // Numbers below 2^51 in the mantissa of 1.5 * 2^52.
+  // Added to 1.5 * 2^52, a number below 2^51 stands in the low bits of the mantissa.
   static constexpr double magic = 6755399441055744.0;
   static __m256i magic_bits() { return _mm256_castpd_si256(_mm256_set1_pd(magic)); }
   static Doubles to_doubles(const Longs& a) {
@@ -146,6 +146,9 @@ struct Avx2 {
   }
   static Doubles plus(const Doubles& a, const Doubles& b) {
     return both_doubles([&](int h) { return _mm256_add_pd(a.half[h], b.half[h]); });
+  }
+  static Doubles where(const Longs& mask, const Doubles& x) {
+    return both_doubles([&](int h) { return _mm256_and_pd(_mm256_castsi256_pd(mask.half[h]), x.half[h]); });
   }
   static Doubles times(const Doubles& a, const Doubles& b) {
     return both_doubles([&](int h) { return _mm256_mul_pd(a.half[h], b.half[h]); });

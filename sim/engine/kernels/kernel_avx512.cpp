@@ -31,7 +31,6 @@ struct Avx512 {
   static Longs max(Longs a, Longs b) { return _mm512_max_epi64(a, b); }
   static Longs absolute(Longs a) { return _mm512_abs_epi64(a); }
   static Longs bits_and(Longs a, Longs b) { return _mm512_and_si512(a, b); }
-  static Longs bits_xor(Longs a, Longs b) { return _mm512_xor_si512(a, b); }
   static Longs signs(Longs a) { return _mm512_srai_epi64(a, 63); }
   static Longs shift_up(Longs a, Count n) { return _mm512_sll_epi64(a, n); }
   static Longs shift_down(Longs a, Count n) { return _mm512_sra_epi64(a, n); }
@@ -55,6 +54,7 @@ struct Avx512 {
 
   static Doubles to_doubles(Longs a) { return _mm512_cvtepi64_pd(a); }
   static Doubles plus(Doubles a, Doubles b) { return _mm512_add_pd(a, b); }
+  static Doubles where(Longs mask, Doubles x) { return _mm512_and_pd(_mm512_castsi512_pd(mask), x); }
   static Doubles times(Doubles a, Doubles b) { return _mm512_mul_pd(a, b); }
   static Longs floor_longs(Doubles a) {
     return _mm512_cvt_roundpd_epi64(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);

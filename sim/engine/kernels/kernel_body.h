@@ -18,8 +18,8 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     return Isa::gather(plane, far_slot + source.base);
   }
 
-  /// A block on its way through the three stages of `fire`. The sums of x, y and z have names, not an array,
-  /// so that they stay in registers.
+  /// A block on its way through the three stages of `fire`. The sums of x, y and z are three members instead
+  /// of an array, so that they stay in registers.
   template <int P, bool wide> struct Block {
     bool live = false;
     std::size_t slot = 0;
@@ -34,7 +34,8 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
       w += 16 * P;
     }
 
-    /// All of the sums that does not wait for the cells' own neurons: neighbours, own z, and x's own inputs.
+    /// Adds all inputs that need not wait for the cells' own neurons: those from neighbours, from the cell's
+    /// z, and the own inputs of x.
     [[gnu::always_inline]] void load(const KernelArgs& a, std::size_t block) {
       live = true;
       slot = 16 * block;
@@ -60,15 +61,15 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
 
   // Cells of one neuron: nothing in a block waits, and the processor looks from one block into the next.
   template <Normalise how, bool plain, bool wide>
-  static void fire_single(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
-    Stage c(a, swings);
+  static void fire_single(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
+    Stage c(a, extremes);
     Block<1, wide> at;
     for (std::size_t block = first; block < last; ++block) {
       at.load(a, block);
       const Words link = KernelStage<Isa>::template publish<how, plain>(at.x, at.slot, c);
       Isa::store_words(a.next_zz + at.slot, Isa::halves(link, Isa::up_16(link)));
     }
-    c.swings(swings);
+    c.store_extremes(extremes);
   }
 
   // A cell's neurons wait for each other, a group's cells do not. So the z of one block fires beside the y of
@@ -76,9 +77,9 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
   // long one, which the processor could not look past. A block that reads what is still on its way waits for
   // it.
   template <int P, Normalise how, bool plain, bool wide>
-  static void fire(const KernelArgs& a, std::size_t first, std::size_t last, KernelSwings& swings) {
-    if constexpr (P == 1) return fire_single<how, plain, wide>(a, first, last, swings);
-    Stage c(a, swings);
+  static void fire(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
+    if constexpr (P == 1) return fire_single<how, plain, wide>(a, first, last, extremes);
+    Stage c(a, extremes);
     Block<P, wide> summed, with_x, with_y;
     for (std::size_t block = first; true;) {
       if (P == 3 && with_y.live) {
@@ -111,7 +112,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
       else if (!on_their_way)
         break;
     }
-    c.swings(swings);
+    c.store_extremes(extremes);
   }
 
   template <int P> static void rows(const KernelArgs& a, std::size_t block, std::uint32_t* sums) {

@@ -82,9 +82,6 @@ struct Portable {
   static Longs bits_and(const Longs& a, const Longs& b) {
     return each([&](int l) { return a.at[l] & b.at[l]; });
   }
-  static Longs bits_xor(const Longs& a, const Longs& b) {
-    return each([&](int l) { return a.at[l] ^ b.at[l]; });
-  }
   static Longs signs(const Longs& a) {
     return each([&](int l) { return a.at[l] >> 63; });
   }
@@ -148,6 +145,10 @@ struct Portable {
   }
   static Doubles plus(const Doubles& a, const Doubles& b) {
     return each_double([&](int l) { return a.at[l] + b.at[l]; });
+  }
+  /// x where the mask is -1, zero where it is 0.
+  static Doubles where(const Longs& mask, const Doubles& x) {
+    return each_double([&](int l) { return mask.at[l] ? x.at[l] : 0.0; });
   }
   static Doubles times(const Doubles& a, const Doubles& b) {
     return each_double([&](int l) { return a.at[l] * b.at[l]; });

@@ -1,4 +1,4 @@
-// The output stage of sixteen neurons, for any instruction set; see kernel_body.h, whose first half this is.
+// The output stage of sixteen neurons, for any instruction set: the first half of kernel_body.h.
 #pragma once
 
 #include "sim/engine/kernels/kernel.h"
@@ -16,7 +16,7 @@ template <typename Isa, bool wide> struct Sum {
   typename Isa::Longs high() const { return Isa::high(sum); }
 };
 
-/// The same, pair by pair into 64 bits.
+/// Sums in 64 bits, added pair by pair: for arrays with a row that 32 bits do not hold.
 template <typename Isa> struct Sum<Isa, true> {
   typename Isa::Longs low_sum = Isa::all(0), high_sum = Isa::all(0);
   void add(typename Isa::Words links, const std::uint32_t* weights) {
@@ -37,7 +37,7 @@ template <typename Isa> struct KernelStage {
   struct Rounder {
     Longs add, add_if_negative, add_if_odd;
     typename Isa::Count places;
-    explicit Rounder(const KernelRounding& r)
+    explicit Rounder(const ShiftRounding& r)
         : add(Isa::all(r.add)), add_if_negative(Isa::all(r.add_if_negative)),
           add_if_odd(Isa::all(r.add_if_odd)), places(Isa::count(r.places)) {}
   };
@@ -51,28 +51,29 @@ template <typename Isa> struct KernelStage {
     return Isa::shift_down(sum, r.places);
   }
 
-  /// Everything that stays the same from block to block.
+  /// Constants of the run, and the extremes so far.
   struct Stage {
     const KernelArgs& args;
     Rounder drive, state;
     Words link_add, link_add_if_negative, link_add_if_odd, largest;
-    Longs one, minus_one, flip_by_sign, flip_always, least_sum, largest_sum, least_drive, largest_drive;
+    Longs one, minus_one, least_sum, largest_sum, least_drive, largest_drive;
     typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
-    typename Isa::Doubles quarter, half;
+    typename Isa::Doubles to_dividend, to_dividend_if_negative, to_quotient, to_quotient_if_negative;
 
-    [[gnu::always_inline]] Stage(const KernelArgs& a, const KernelSwings& s)
+    [[gnu::always_inline]] Stage(const KernelArgs& a, const LaneExtremes& s)
         : args(a), drive(a.drive), state(a.state_rounding), link_add(Isa::all_words(a.link.add)),
           link_add_if_negative(Isa::all_words(a.link.add_if_negative)),
           link_add_if_odd(Isa::all_words(a.link.add_if_odd)), largest(Isa::load_words(s.largest_change)),
-          one(Isa::all(a.one_drive)), minus_one(Isa::all(-a.one_drive)),
-          flip_by_sign(Isa::all(a.division.flip_by_sign)), flip_always(Isa::all(a.division.flip_always)),
-          least_sum(Isa::load(s.least_sum)), largest_sum(Isa::load(s.largest_sum)),
-          least_drive(Isa::load(s.least_drive)), largest_drive(Isa::load(s.largest_drive)),
-          link_places(Isa::count(a.link.places)), bias_up(Isa::count(a.bias_up)),
-          state_fraction(Isa::count(a.state_fraction)), ratio_up(Isa::count(a.division.ratio_up)),
-          quarter(Isa::all_doubles(0.25)), half(Isa::all_doubles(a.division.half)) {}
+          one(Isa::all(a.one_drive)), minus_one(Isa::all(-a.one_drive)), least_sum(Isa::load(s.least_sum)),
+          largest_sum(Isa::load(s.largest_sum)), least_drive(Isa::load(s.least_drive)),
+          largest_drive(Isa::load(s.largest_drive)), link_places(Isa::count(a.link.places)),
+          bias_up(Isa::count(a.bias_up)), state_fraction(Isa::count(a.state_fraction)),
+          ratio_up(Isa::count(a.division.ratio_up)), to_dividend(Isa::all_doubles(a.division.to_dividend)),
+          to_dividend_if_negative(Isa::all_doubles(a.division.to_dividend_if_negative)),
+          to_quotient(Isa::all_doubles(a.division.to_quotient)),
+          to_quotient_if_negative(Isa::all_doubles(a.division.to_quotient_if_negative)) {}
 
-    void swings(KernelSwings& s) const {
+    void store_extremes(LaneExtremes& s) const {
       Isa::store_words(s.largest_change, largest);
       Isa::store(s.least_sum, least_sum);
       Isa::store(s.largest_sum, largest_sum);
@@ -81,20 +82,18 @@ template <typename Isa> struct KernelStage {
     }
   };
 
-  // floor(s / N) with a quarter of 1 / N to spare on either side: more than a double's error, since s and the
-  // quotient have few enough bits (docs/hardware/engine.md).
   static Longs divided(Longs s, const std::int64_t* inverse, const Stage& c) {
-    const Longs x = Isa::shift_up(s, c.ratio_up);
-    const Longs flip = Isa::bits_xor(Isa::bits_and(Isa::signs(x), c.flip_by_sign), c.flip_always);
-    const auto y = Isa::to_doubles(Isa::sub(Isa::bits_xor(x, flip), flip));
-    const auto q = Isa::plus(Isa::times(Isa::plus(y, c.quarter), Isa::load_doubles(inverse)), c.half);
-    return Isa::sub(Isa::bits_xor(Isa::floor_longs(q), flip), flip);
+    const Longs x = Isa::shift_up(s, c.ratio_up), negative = Isa::signs(x);
+    const auto more = Isa::plus(c.to_dividend, Isa::where(negative, c.to_dividend_if_negative));
+    const auto last = Isa::plus(c.to_quotient, Isa::where(negative, c.to_quotient_if_negative));
+    const auto dividend = Isa::plus(Isa::to_doubles(x), more);
+    return Isa::floor_longs(Isa::plus(Isa::times(dividend, Isa::load_doubles(inverse)), last));
   }
 
   template <Normalise how, bool plain>
   static Longs drive_of(Longs s, const std::int64_t* multiplier, const Stage& c) {
     if constexpr (how == Normalise::divide) return divided(s, multiplier, c);
-    if constexpr (how == Normalise::sign) // drive_fraction places are those of Delta V behind the state's
+    if constexpr (how == Normalise::sign) // the state's rounding drops as many places as u has
       return Isa::shift_up(Isa::min(Isa::max(s, Isa::all(-1)), Isa::all(1)), c.state.places);
     if constexpr (how == Normalise::multiply)
       return rounded<plain>(Isa::multiply(s, Isa::load(multiplier)), c.drive);
@@ -114,7 +113,7 @@ template <typename Isa> struct KernelStage {
     return rounded<plain>(product, c.state);
   }
 
-  /// V to its link. V has at most 31 bits of size, and so has all that is added.
+  /// V to its link. |V| has at most 31 bits, and so has all that is added.
   template <bool plain> static Words link_of(Words V, const Stage& c) {
     Words sum = Isa::add_words(V, c.link_add);
     if constexpr (!plain) {

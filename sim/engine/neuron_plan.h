@@ -6,8 +6,8 @@
 
 namespace hopmesh::engine {
 
-struct Plan : spec::Points {
-  Plan(const spec::ArraySpec& array, const spec::Topology& topology);
+struct NeuronPlan : spec::Points {
+  NeuronPlan(const spec::ArraySpec& array, const spec::Topology& topology);
 
   spec::Formats formats; ///< with the accumulator as built
   spec::Schedule schedule;
@@ -16,6 +16,9 @@ struct Plan : spec::Points {
   bool exact;  ///< the accumulator loses nothing
   bool binary; ///< u is the sign of s, and nothing is normalised
   std::size_t most_taps;
+
+  int norm_bits;         ///< bits of the largest N that codes of these formats can make
+  int multiplier_places; ///< of s times the reciprocal of such an N, behind the drive's last place
   std::int64_t one_state, one_drive, one_link;
 };
 
