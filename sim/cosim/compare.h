@@ -23,9 +23,8 @@ struct Distance {
 
 struct LevelReport {
   std::string level;
-  double largest_output_error = 0, rms_output_error = 0, largest_energy_gap = 0, largest_network_error = 0;
+  std::vector<levels::StepRow> rows;
   std::vector<Distance> distances; ///< empty without a reference, and for the reference itself
-  std::uint64_t sweeps = 0, cycles = 0;
 };
 
 struct Difference {
@@ -58,7 +57,6 @@ Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& 
 
 /// The comparison for people, a few lines. `inputs`: SCENE and options as a command line has them, for the
 /// command that cuts a wave around a difference.
-std::string text_of(const Comparison& comparison, const std::string& inputs,
-                         const spec::ArraySpec& array);
+std::string text_of(const Comparison& comparison, const std::string& inputs, const spec::ArraySpec& array);
 
 } // namespace hopmesh::cosim

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "sim/pictures/run_view.h"
-#include "sim/run/run_files.h"
+#include "sim/run/run_facts.h"
+#include "sim/run/simulation.h"
+
+#include <filesystem>
 
 namespace hopmesh::run {
 

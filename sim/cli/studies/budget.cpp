@@ -1,9 +1,9 @@
 // hopmesh budget: how much of a run's distance from the truth is whose.
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
-#include "sim/levels/reference_motion.h"
 #include "sim/levels/exact_step.h"
 #include "sim/levels/level.h"
+#include "sim/levels/reference_motion.h"
 #include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
@@ -109,8 +109,8 @@ bool fly(const levels::Prepared& p, Link& link, Budget& budget) {
       run::simulate(*link.made, steps, {&snapshots, &progress}, levels::stop_requested);
   if (result.outcome == run::Outcome::diverged)
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
-  const auto unfinished = std::count_if(result.rows.begin(), result.rows.end(),
-                                        [](const levels::StepRow& row) { return !row.converged; });
+  const std::uint64_t unfinished =
+      run::count_of(result.rows, &levels::StepRow::converged, levels::Summary::unmet);
   if (unfinished > 0)
     link.motion += fmt::format(" ({} of {} steps ended by their sweeps)", unfinished, steps);
   link.at = std::move(snapshots.at);
