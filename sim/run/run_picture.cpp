@@ -2,7 +2,6 @@
 
 #include "sim/files/npy.h"
 #include "sim/run/array_info.h"
-#include "sim/run/run_totals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,17 +51,6 @@ bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& ro
     return is_judged(rows);
   }
   return false;
-}
-
-void add_series(const RunFacts& facts, const StepRows& rows, pictures::RunView& view) {
-  for (const levels::StepRow& row : rows) view.step_times.push_back(row.time);
-  for (const levels::StepColumn& column : step_columns()) {
-    if (!column.curve.name || !is_shown(column.subject, facts, rows)) continue;
-    pictures::Series& series = view.series.emplace_back();
-    series.name = column.curve.name, series.unit = column.curve.unit;
-    for (const levels::StepRow& row : rows)
-      series.values.push_back(column.curve.factor * value_of(row, column.figure).value_or(NAN));
-  }
 }
 
 void add_totals(levels::Subject subject, const StepRows& rows, std::vector<pictures::Figure>& lines) {
@@ -131,6 +119,19 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   return shown;
 }
 
+std::vector<pictures::Series> series_of(const RunFacts& facts, const StepRows& rows,
+                                        const StepColumns& columns) {
+  std::vector<pictures::Series> all;
+  for (const levels::StepColumn& column : columns) {
+    if (!column.curve.name || !is_shown(column.subject, facts, rows)) continue;
+    pictures::Series& series = all.emplace_back();
+    series.name = column.curve.name, series.unit = column.curve.unit;
+    for (const levels::StepRow& row : rows)
+      series.values.push_back(column.curve.factor * value_of(row, column.figure).value_or(NAN));
+  }
+  return all;
+}
+
 std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh,
                                     const RunResult& result, const std::vector<levels::SignalRange>& ranges) {
   std::vector<FigureTable> tables{run_table(facts, result.rows, mesh, result.wall_seconds)};
@@ -154,7 +155,8 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   view.manifest = std::move(manifest);
   add_surface(mesh.mesh(), view);
   add_frames(positions, scene.motion.time_step, view);
-  add_series(facts, result.rows, view);
+  for (const levels::StepRow& row : result.rows) view.step_times.push_back(row.time);
+  view.series = series_of(facts, result.rows);
   return view;
 }
 

@@ -19,10 +19,7 @@ struct Write {
   template <class Number> void operator()(Number levels::StepRow::*member) const { table.cell(row.*member); }
   void operator()(levels::HashFigure hash) const { table.cell(fmt::format("{:016x}", row.*hash.member)); }
   void operator()(double levels::ReferenceError::*member) const {
-    if (row.error)
-      table.cell((*row.error).*member);
-    else
-      table.cell("");
+    table.cell(row.error ? std::optional((*row.error).*member) : std::nullopt);
   }
 };
 

@@ -56,7 +56,7 @@ inline constexpr ResultColumn all_result_columns[] = {
     {"axis", "", "its label", &Point::labels},
     {"method", "", "that ran it", &Point::method},
     {"status", "", "`finished`, `diverged`, `crashed` or `failed`", &PointRow::outcome},
-    {"class", "", "what became of the motion, in a word: [below](#stability)", &PointRow::stability},
+    {"class", "", "what became of the motion, in a word: see [stability](#stability)", &PointRow::stability},
     {"output_error", "",
      "rms of V against the reference's answer to the same step, over all steps and neurons",
      &PointRow::output_error, Role::error},

@@ -21,21 +21,12 @@ struct Write {
   template <class Value> void operator()(Value PointRow::*member) const { table.cell(row.*member); }
   void operator()(run::Outcome PointRow::*member) const { table.cell(run::name_of(row.*member)); }
   void operator()(Stability PointRow::*member) const { table.cell(study::name_of(row.*member)); }
-  void operator()(Maybe PointRow::*member) const { cell(row.*member); }
   void operator()(Labels member) const {
     for (const std::string& label : point.*member) table.cell(label);
   }
   void operator()(AtTimes member) const {
     const std::vector<Maybe>& values = row.*member;
-    for (std::size_t k = 0; k < study.times.size(); ++k) cell(k < values.size() ? values[k] : std::nullopt);
-  }
-
- private:
-  void cell(const Maybe& value) const {
-    if (value)
-      table.cell(*value);
-    else
-      table.cell("");
+    for (std::size_t k = 0; k < study.times.size(); ++k) table.cell(k < values.size() ? values[k] : Maybe());
   }
 };
 

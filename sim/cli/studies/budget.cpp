@@ -7,6 +7,7 @@
 #include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
+#include "sim/run/run_totals.h"
 #include "sim/study/error_budget.h"
 #include "sim/study/truth_store.h"
 
