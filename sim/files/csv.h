@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -25,6 +26,8 @@ class CsvWriter {
   CsvWriter& cell(double value);
   CsvWriter& cell(std::string_view text);
   CsvWriter& cell(const char* text) { return cell(std::string_view(text)); }
+  /// Empty where there is no value.
+  CsvWriter& cell(const std::optional<double>& value) { return value ? cell(*value) : cell(""); }
   CsvWriter& cell(bool value) { return raw(value ? "1" : "0"); }
   template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
   CsvWriter& cell(Integer value) {

@@ -2,6 +2,7 @@
 
 #include "sim/levels/level.h"
 #include "sim/levels/stop.h"
+#include "sim/run/run_totals.h"
 #include "sim/study/point_pool.h"
 
 namespace hopmesh::study {
@@ -9,15 +10,15 @@ namespace hopmesh::study {
 namespace {
 
 TrialRow row_of(const run::RunResult& result, double error) {
+  using levels::StepRow;
+  using levels::Summary;
   TrialRow row;
-  const bool finished = result.outcome == run::Outcome::finished;
-  row.status = finished ? "finished" : "diverged";
-  if (finished) row.error = error;
-  for (const levels::StepRow& step : result.rows) {
-    row.sweeps += step.sweeps, row.cycles += step.cycles;
-    row.most_sweeps = std::max(row.most_sweeps, step.sweeps);
-    row.most_cycles = std::max(row.most_cycles, step.cycles);
-  }
+  row.outcome = result.outcome;
+  if (result.outcome == run::Outcome::finished) row.error = error;
+  row.sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::sum);
+  row.most_sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::largest);
+  row.cycles = run::count_of(result.rows, &StepRow::cycles, Summary::sum);
+  row.most_cycles = run::count_of(result.rows, &StepRow::cycles, Summary::largest);
   return row;
 }
 

@@ -57,8 +57,8 @@ void add_series(RunView& view, std::size_t steps) {
     strain.push_back(0.02 + 0.05 * calm + 0.008 * std::sin(3.2 * t));
     error.push_back(1e-6 * std::pow(10.0, 4.2 * (1 - calm)) * (1.2 + std::sin(2.1 * t)));
   }
-  view.series = {{"sweeps", "", sweeps},    {"cycles", "", cycles},     {"energy", "J", energy},
-                 {"kinetic", "J", kinetic}, {"max_strain", "", strain}, {"error_v", "m/s²", error}};
+  view.series = {{"sweeps", "", sweeps},    {"cycles", "", cycles},         {"energy", "J", energy},
+                 {"kinetic", "J", kinetic}, {"largest strain", "", strain}, {"error", "m/s²", error}};
 }
 
 } // namespace

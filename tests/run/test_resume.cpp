@@ -130,7 +130,7 @@ TEST_P(Resume, RowsReadBackToTheSameBits) {
   const auto found = run::read_run(out);
   ASSERT_EQ(found.rows.size(), 4u);
   Rig rig(GetParam());
-  files::CsvWriter again(folder / "again.csv", run::step_columns());
+  files::CsvWriter again(folder / "again.csv", run::step_header());
   for (const levels::StepRow& row : found.rows) {
     const levels::StepRow wanted = rig.motion->advance();
     EXPECT_EQ(row.hash, wanted.hash);
@@ -219,7 +219,7 @@ TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
 TEST(ReadRows, SayWhichLineIsNone) {
   const Folder folder;
   std::string header;
-  for (const std::string& name : run::step_columns()) header += (header.empty() ? "" : ",") + name;
+  for (const std::string& name : run::step_header()) header += (header.empty() ? "" : ",") + name;
   const std::string row = "0,0.05,1,2,3,4,5,6,1,7,8,9,,,,,00000000000000ff\n";
   const auto read = [&](const std::string& text) {
     write_text(folder / "t.csv", text);

@@ -7,6 +7,7 @@
 #include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
+#include "sim/run/run_totals.h"
 #include "sim/study/error_budget.h"
 #include "sim/study/truth_store.h"
 
@@ -106,8 +107,8 @@ bool fly(const levels::Prepared& p, Link& link, Budget& budget) {
       run::simulate(*link.made, steps, {&snapshots, &progress}, levels::stop_requested);
   if (result.outcome == run::Outcome::diverged)
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
-  const auto unfinished = std::count_if(result.rows.begin(), result.rows.end(),
-                                        [](const levels::StepRow& row) { return !row.converged; });
+  const std::uint64_t unfinished =
+      run::count_of(result.rows, &levels::StepRow::converged, levels::Summary::unmet);
   if (unfinished > 0)
     link.motion += fmt::format(" ({} of {} steps ended by their sweeps)", unfinished, steps);
   link.at = std::move(snapshots.at);

@@ -59,11 +59,11 @@ int one_point(const study::Study& study, const study::StudyFolder& folder, const
     row =
         study::run_point(point, study::inputs_of(study, point), study.times, methods, levels::stop_requested);
   } catch (const std::exception& error) {
-    row.status = "failed";
+    row.outcome = run::Outcome::failed;
     row.stability = study::Stability::blow_up;
     row.sentence = error.what();
   }
-  if (levels::stop_requested || row.status == "interrupted") return interrupted;
+  if (levels::stop_requested || row.outcome == run::Outcome::interrupted) return interrupted;
   folder.keep(point, row);
   return done;
 }
@@ -71,7 +71,7 @@ int one_point(const study::Study& study, const study::StudyFolder& folder, const
 void keep_crash(const study::Study& study, const study::StudyFolder& folder, std::size_t number,
                 const study::ChildEnd& end) {
   study::PointRow row;
-  row.status = "crashed";
+  row.outcome = run::Outcome::crashed;
   row.stability = study::Stability::blow_up;
   row.sentence = end.signal ? fmt::format("killed by signal {} ({})", end.signal, strsignal(end.signal))
                             : fmt::format("ended with exit code {}", end.exit_code);

@@ -1,4 +1,4 @@
-#include "tests/house/printed_registers.h"
+#include "tests/house/page_tables.h"
 
 #include "firmware/registers.h"
 
@@ -43,11 +43,24 @@ std::string window_table() {
   return table;
 }
 
+template <class Column, std::size_t n> std::vector<Column> all(const Column (&columns)[n]) {
+  return {std::begin(columns), std::end(columns)};
+}
+
 } // namespace
 
+std::string page_row(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& text : cells) row += text.empty() ? " |" : " " + cell(text) + " |";
+  return row + "\n";
+}
+
 std::string with_tables(const std::string& page) {
-  const std::map<std::string, std::string> tables{{"<!-- table registers -->", register_table()},
-                                                  {"<!-- table windows -->", window_table()}};
+  const std::map<std::string, std::string> tables{
+      {"<!-- table registers -->", register_table()},
+      {"<!-- table windows -->", window_table()},
+      {"<!-- table steps -->", step_table(all(levels::all_step_columns))},
+      {"<!-- table results -->", result_table(all(study::all_result_columns))}};
   std::istringstream in(page);
   std::string printed;
   bool inside = false;
