@@ -5,7 +5,7 @@
 #include "firmware/driver.h"
 #include "sim/cosim/bus_array.h"
 #include "sim/levels/level.h"
-#include "sim/networks/solvers/race.h"
+#include "sim/networks/solvers/solver_runs.h"
 
 namespace hopmesh::networks {
 
