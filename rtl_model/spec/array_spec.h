@@ -46,7 +46,7 @@ inline std::string_view name_of(Output o) {
 
 /// Number format of each class of signals: those of the preset `guarded`.
 struct Formats {
-  /// One weight of a row.
+  /// A weight of a row.
   NumberFormat weight{16, 1, Rounding::rnd, Overflow::sat};
   /// External input of a neuron, in units of weight: its point lies where its own format says.
   NumberFormat bias{24, 9, Rounding::rnd, Overflow::sat};

@@ -1,5 +1,5 @@
-// One two-part neuron as a module of its own (docs/hardware/datapath.md): input accumulator, reciprocal, output stage.
-// It knows its place in the mesh from the tables of array_pkg. What another stage reads is written by blocking
+// A two-part neuron as a module of its own (docs/hardware/datapath.md): input accumulator, reciprocal, output stage.
+// The neuron knows its place in the mesh from the tables of array_pkg. What another stage reads is written by blocking
 // assignments, which spare the simulator a shadow of each.
 module neuron
   import stages::*;

@@ -4,7 +4,7 @@
 
 #include "sim/levels/level.h"
 #include "sim/networks/loaded_array.h"
-#include "sim/networks/solvers/race.h"
+#include "sim/networks/solvers/solver_runs.h"
 
 namespace hopmesh::networks {
 

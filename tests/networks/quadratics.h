@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/networks/solvers/network_solver.h"
-#include "sim/networks/solvers/race.h"
+#include "sim/networks/solvers/solver_runs.h"
 #include "tests/reference/random_inputs.h"
 
 #include <Eigen/Dense>

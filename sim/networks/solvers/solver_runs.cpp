@@ -1,4 +1,4 @@
-#include "sim/networks/solvers/race.h"
+#include "sim/networks/solvers/solver_runs.h"
 
 #include <cmath>
 #include <ctime>
