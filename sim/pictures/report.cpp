@@ -3,8 +3,7 @@
 #include "sim/pictures/report.h"
 
 #include "sim/files/base64.h"
-#include "sim/pictures/flag_crest.h"
-#include "sim/pictures/report_assets.h"
+#include "sim/pictures/assets.h"
 
 #include <fstream>
 #include <functional>
@@ -108,7 +107,7 @@ void put_data(files::OutputFile& file, const RunView& view) {
   if (view.crest && !view.triangles.empty()) {
     file.write("data:image/png;base64,");
     files::Base64Writer digits(file);
-    digits.bytes(flag_crest().data(), flag_crest().size());
+    digits.bytes(asset("crest.png").data(), asset("crest.png").size());
     digits.end();
   }
   file.write("\"");
@@ -134,7 +133,7 @@ void put_three(files::OutputFile& file, const std::filesystem::path& folder) {
   source.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(source.gcount()));
   if (text.empty()) return file.write("// three.js was not found: the page draws on a 2-D canvas.");
-  file.write(report_assets().at("three_license.js"));
+  file.write(asset("three_license.js"));
   // In a script "<\/" means the same as "</", but does not end the element.
   std::size_t begin = 0;
   for (std::size_t at; (at = text.find("</script", begin)) != std::string::npos; begin = at + 1) {
@@ -150,7 +149,7 @@ void put_script(files::OutputFile& file) {
   for (const char* name :
        {"data.js", "camera.js", "surface.js", "view_webgl.js", "view_canvas.js", "charts.js", "page.js"}) {
     file.write("\n");
-    file.write(report_assets().at(name));
+    file.write(asset(name));
   }
   file.write("})();\n");
 }
@@ -174,9 +173,9 @@ void fill(files::OutputFile& file, const std::string& page, const Parts& parts) 
 void write_report(const RunView& view, const std::filesystem::path& path,
                   const std::filesystem::path& three_folder) {
   files::OutputFile page(path);
-  fill(page, report_assets().at("report.html"),
+  fill(page, asset("report.html"),
        {{"title", [&](files::OutputFile& file) { file.write(escaped(view.title)); }},
-        {"css", [](files::OutputFile& file) { file.write(report_assets().at("report.css")); }},
+        {"css", [](files::OutputFile& file) { file.write(asset("report.css")); }},
         {"data", [&](files::OutputFile& file) { put_data(file, view); }},
         {"three", [&](files::OutputFile& file) { put_three(file, three_folder); }},
         {"script", put_script}});

@@ -1,7 +1,7 @@
 #include "tests/bench/network_pictures.h"
 
+#include "sim/files/png.h"
 #include "sim/networks/problems/making.h"
-#include "sim/pictures/crest/crest.h"
 #include "sim/pictures/svg_chart.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // Writes the sample run's report and animation for looking at: record_samples FOLDER. Not a test.
-#include "sim/pictures/flag_crest.h"
 #include "sim/pictures/gltf.h"
 #include "sim/files/output_file.h"
 #include "sim/pictures/report.h"
@@ -16,7 +15,6 @@ int main(int argc, char** argv) try {
   write_report(view, folder / "report.html");
   write_report(view, folder / "report-without-three.html", "/nonexistent");
   write_glb(view, folder / "mesh.glb");
-  write_file(folder / "crest.png", flag_crest());
   view.good = false;
   view.crest = false;
   view.outcome = "Diverged at step 212: node 57 left the range of the positions' format.";
