@@ -2,7 +2,7 @@
 
 #include "sim/files/base64.h"
 #include "sim/pictures/mesh_bitmap.h"
-#include "sim/pictures/svg_chart.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ void write_mesh_picture(const RunView& view, const std::filesystem::path& path) 
   file.write(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
                          "height=\"{1}\">\n<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" "
                          "fill=\"#fff\"/>\n",
-                         shapes.width(), shapes.height(), xml(view.title)));
+                         shapes.width(), shapes.height(), escaped(view.title)));
   if (few.size() <= most_vectors)
     write_vectors(shapes, few, file);
   else
