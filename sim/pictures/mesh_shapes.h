@@ -1,4 +1,4 @@
-// A run's mesh as flat shapes on paper: what picture.svg draws, be it as vectors or as a bitmap.
+// A run's mesh as flat shapes on paper: what picture.svg draws.
 #pragma once
 
 #include "sim/pictures/surface.h"
