@@ -1,4 +1,5 @@
-// Every key of a scene, its range, and the rules between keys. docs/scene.md explains what the keys mean.
+// Every key of a scene, its range, and the rules between keys. docs/use/scene-files.md explains what the keys
+// mean.
 #include "sim/scene/scene_reader.h"
 
 #include "sim/input/key_reader.h"

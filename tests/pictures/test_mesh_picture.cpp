@@ -1,7 +1,7 @@
 // picture.svg: what lies where, what hides what, and that no mesh makes a large file.
 #include "sim/pictures/mesh_picture.h"
 
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 #include <iterator>
 #include <regex>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string drawn(const RunView& view) {
-  const Folder folder;
+  const tests::Folder folder;
   write_mesh_picture(view, folder / "picture.svg");
   std::ifstream file(folder / "picture.svg");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -143,7 +143,8 @@ TEST(MeshPicture, ACoarseSheetStillHidesTheOneBehind) {
 
 /// Twice the area of the faces of a picture, in square pixels.
 double area(const std::string& svg) {
-  static const std::regex face("<path d=\"M([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)Z\" fill");
+  static const std::regex face(
+      "<path d=\"M([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)Z\" fill");
   double sum = 0;
   for (std::sregex_iterator at(svg.begin(), svg.end(), face), end; at != end; ++at) {
     const auto p = [&](std::size_t k) { return std::stod((*at)[k]); };
@@ -152,7 +153,8 @@ double area(const std::string& svg) {
   return sum;
 }
 
-// Corners of the sheets move inwards by less than a cube; between faces nothing is left open and nothing is doubled.
+// Corners of the sheets move inwards by less than a cube; between faces nothing is left open and nothing is
+// doubled.
 TEST(MeshPicture, CoarseFacesCoverWhatTheFineOnesCovered) {
   const double fine = area(drawn(sheets(30, 8))), coarse = area(drawn(sheets(240, 64)));
   EXPECT_NEAR(coarse / fine, 1, 0.08);
@@ -181,4 +183,4 @@ TEST(MeshPicture, AnyLargeMeshHasAPicture) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures
