@@ -2,8 +2,9 @@
 // which put it on the page as text only; so no name or message of a run can become markup or code.
 #include "sim/pictures/report.h"
 
-#include "sim/files/base64.h"
 #include "sim/pictures/assets.h"
+#include "sim/pictures/base64.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <fstream>
 #include <functional>
@@ -40,7 +41,7 @@ template <class Fill> void put_array(files::OutputFile& file, std::string_view n
   file.write(",\"");
   file.write(name);
   file.write("\":\"");
-  files::Base64Writer digits(file);
+  Base64Writer digits(file);
   fill(digits);
   digits.end();
   file.write("\"");
@@ -48,28 +49,28 @@ template <class Fill> void put_array(files::OutputFile& file, std::string_view n
 
 template <class T>
 void put_array(files::OutputFile& file, std::string_view name, const std::vector<T>& values) {
-  put_array(file, name, [&](files::Base64Writer& out) { out.values(values); });
+  put_array(file, name, [&](Base64Writer& out) { out.values(values); });
 }
 
 void put_mesh(files::OutputFile& file, const RunView& view) {
-  put_array(file, "triangles", [&](files::Base64Writer& out) {
+  put_array(file, "triangles", [&](Base64Writer& out) {
     for (const auto& triangle : view.triangles)
       for (const ViewCorner& corner : triangle) out.value(corner.node);
   });
-  put_array(file, "uv", [&](files::Base64Writer& out) {
+  put_array(file, "uv", [&](Base64Writer& out) {
     for (const auto& triangle : view.triangles)
       for (const ViewCorner& corner : triangle) out.value(corner.u), out.value(corner.v);
   });
-  put_array(file, "springs", [&](files::Base64Writer& out) {
+  put_array(file, "springs", [&](Base64Writer& out) {
     for (const ViewSpring& spring : view.springs) out.value(spring.node);
   });
-  put_array(file, "restLengths", [&](files::Base64Writer& out) {
+  put_array(file, "restLengths", [&](Base64Writer& out) {
     for (const ViewSpring& spring : view.springs) out.value(spring.rest_length);
   });
 }
 
 void put_motion(files::OutputFile& file, const RunView& view) {
-  put_array(file, "frames", [&](files::Base64Writer& out) {
+  put_array(file, "frames", [&](Base64Writer& out) {
     for (const auto& frame : view.frames) out.values(frame);
   });
   put_array(file, "frameTimes", view.frame_times);
@@ -106,7 +107,7 @@ void put_data(files::OutputFile& file, const RunView& view) {
   file.write(",\"crest\":\"");
   if (view.crest && !view.triangles.empty()) {
     file.write("data:image/png;base64,");
-    files::Base64Writer digits(file);
+    Base64Writer digits(file);
     digits.bytes(asset("crest.png").data(), asset("crest.png").size());
     digits.end();
   }
@@ -114,15 +115,6 @@ void put_data(files::OutputFile& file, const RunView& view) {
   put_mesh(file, view);
   put_motion(file, view);
   file.write("}");
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const char* const entity = c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : nullptr;
-    entity ? out += entity : out += c;
-  }
-  return out;
 }
 
 void put_three(files::OutputFile& file, const std::filesystem::path& folder) {
