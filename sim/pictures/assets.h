@@ -1,5 +1,6 @@
-// Files that live in the program, so that an installed program needs no data folder for them: the report's HTML,
-// CSS and JavaScript, and the picture on every flag. embed.cmake writes them into a source during the build.
+// Files that live in the program, so that an installed program needs no data folder for them: the report's
+// HTML, CSS and JavaScript, and the picture on every flag. embed.cmake writes them into a source during the
+// build.
 #pragma once
 
 #include <string>

@@ -167,7 +167,7 @@ tinygltf::Primitive primitive_of(const RunView& view, const std::vector<std::siz
   return primitive;
 }
 
-/// What the library streams goes straight into the file: a large mesh is in memory often enough.
+/// A stream into a file, so that a large mesh is not held in memory once more.
 class IntoFile : public std::streambuf {
  public:
   explicit IntoFile(files::OutputFile& file) : file_(file) {}

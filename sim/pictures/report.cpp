@@ -28,7 +28,7 @@ std::string safe(const nlohmann::json& json) {
   return out;
 }
 
-/// An object that is still to be filled: without its closing brace.
+/// The object's text without its closing brace, so that members can follow.
 std::string opened(const nlohmann::json& object) {
   std::string text = safe(object);
   text.pop_back();
@@ -148,7 +148,7 @@ void put_script(files::OutputFile& file) {
 
 using Parts = std::map<std::string, std::function<void(files::OutputFile&)>>;
 
-/// One walk over the template: what is put in is never looked at for further {{names}}.
+/// Fills in the template's {{names}}; what is put in is not searched for further ones.
 void fill(files::OutputFile& file, const std::string& page, const Parts& parts) {
   std::size_t at = 0;
   for (std::size_t open; (open = page.find("{{", at)) != std::string::npos;) {
