@@ -1,9 +1,9 @@
 // hopmesh budget: how much of a run's distance from the truth is whose.
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
-#include "sim/levels/reference_motion.h"
 #include "sim/levels/exact_step.h"
 #include "sim/levels/level.h"
+#include "sim/levels/reference_motion.h"
 #include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
@@ -231,8 +231,7 @@ int budget(const BudgetOptions& o) {
 void add_budget(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<BudgetOptions>();
   CLI::App* verb = program.add_subcommand(
-      "budget", "how much of a run's distance from the truth is quantisation, unfinished relaxation, "
-                "formulation, time step");
+      "budget", "what a run's distance from the truth is made of: words, sweeps, formulation, step");
   add_common(*verb, o->common);
   auto* steps =
       verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
