@@ -19,7 +19,7 @@ namespace hopmesh::files {
 class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header);
-  /// Goes on behind the rows that are there.
+  /// Goes on with the file of a stopped run, behind its rows.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, StreamRest rest)
       : file_(path, std::move(rest)), columns_(header.size()) {}
 

@@ -30,7 +30,7 @@ class TomlSource {
   TomlSource() = default;
   /// `kind` says in messages what the file should have been.
   static TomlSource read(const std::string& path, const std::string& kind);
-  /// The same from text that stands in the file `path`.
+  /// From a text that stands in the file `path`.
   static TomlSource of_text(const std::string& text, const std::string& path);
 
   /// One override: the value is TOML, or a bare string where it is no TOML.

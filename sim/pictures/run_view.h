@@ -1,5 +1,4 @@
-// What the pictures of a run need: filled by the study, drawn by glTF and report. Plain data, no model behind
-// it.
+// What the pictures of a run need, as plain data: the run fills it in; glTF, report and picture.svg draw it.
 #pragma once
 
 #include <array>

@@ -147,19 +147,5 @@ TEST_F(CampaignTest, StopsWhenAskedAndSaysWhereToGoOn) {
   EXPECT_FALSE(r.finding);
 }
 
-TEST(InChild, TellsHowItEnded) {
-  EXPECT_EQ(in_child([] { return 7; }, 10), 7);
-  EXPECT_EQ(in_child([]() -> int { throw std::runtime_error("no"); }, 10), 98);
-  EXPECT_EQ(in_child([] { return std::raise(SIGKILL); }, 10), 100 + SIGKILL);
-  EXPECT_EQ(in_child(
-                [] {
-                  while (pause() == -1) {
-                  }
-                  return 0;
-                },
-                1),
-            100 + SIGALRM); // who hangs is ended
-}
-
 } // namespace
 } // namespace hopmesh::tests

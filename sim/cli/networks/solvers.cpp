@@ -161,15 +161,6 @@ int solvers(SolversOptions& o) {
   }
 }
 
-CLI::Validator share() {
-  const auto judge = [](const std::string& text) {
-    double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value > 0 && value < 1) return std::string();
-    return fmt::format("found {}, expected a number above 0 and below 1", text);
-  };
-  return CLI::Validator(judge, "");
-}
-
 } // namespace
 
 void add_solvers(CLI::App& program, int& exit_code) {

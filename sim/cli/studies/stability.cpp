@@ -2,13 +2,13 @@
 #include "sim/cli/options.h"
 #include "sim/cli/studies/study_run.h"
 #include "sim/files/csv.h"
+#include "sim/input/number.h"
 #include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_map.h"
 #include "sim/study/result_table.h"
 #include "sim/study/study_folder.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -31,9 +31,7 @@ constexpr double verlet_limit = 2, runge_kutta_limit = 2.83, sweeps_a_step = 0.4
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0;
-  const auto [stop, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-  return value;
+  return input::parse_number(text, value) ? std::optional(value) : std::nullopt;
 }
 
 bool is_numeric(const study::StudyAxis& axis) {

@@ -1,17 +1,18 @@
 // Children of a pool: all are run, a crash is told and stops nobody, a stop ends what runs.
-#include "sim/study/point_pool.h"
+#include "sim/run/children.h"
 
 #include <csignal>
 #include <gtest/gtest.h>
 #include <map>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace hopmesh::tests {
 namespace {
 
-using namespace study;
+using namespace run;
 
-TEST(PointPool, TellsHowEachChildEnded) {
+TEST(Children, TellsHowEachChildEnded) {
   const std::atomic<bool> stop{false};
   std::map<std::size_t, std::pair<int, int>> ends;
   const auto work = [](std::size_t n) {
@@ -29,7 +30,7 @@ TEST(PointPool, TellsHowEachChildEnded) {
   EXPECT_EQ(ends, expected);
 }
 
-TEST(PointPool, AStopEndsThemBeforeTheirTime) {
+TEST(Children, AStopEndsThemBeforeTheirTime) {
   std::atomic<bool> stop{false};
   const auto work = [](std::size_t n) {
     if (n > 0) pause();
@@ -37,6 +38,28 @@ TEST(PointPool, AStopEndsThemBeforeTheirTime) {
   };
   EXPECT_FALSE(run_in_children(
       {0, 1, 2}, 2, work, [&](std::size_t, const ChildEnd&) { stop = true; }, stop));
+}
+
+TEST(Children, OneChildAloneTellsHowItEnded) {
+  EXPECT_EQ(run_in_child([] { return 7; }, 10).exit_code, 7);
+  EXPECT_EQ(run_in_child([]() -> int { throw std::runtime_error("no"); }, 10).exit_code, child_failed);
+  EXPECT_EQ(run_in_child([] { return std::raise(SIGKILL); }, 10).signal, SIGKILL);
+  const auto hang = [] {
+    while (pause() == -1) {
+    }
+    return 0;
+  };
+  EXPECT_EQ(run_in_child(hang, 1).signal, SIGALRM);
+}
+
+// Were it not killed, its owner would wait for it for ever.
+TEST(Children, AChildThatIsGivenUpIsKilled) {
+  const Child child([] { return pause(); });
+}
+
+TEST(Children, TheirEndIsToldInWords) {
+  EXPECT_EQ(describe({3, 0}), "ended with exit code 3");
+  EXPECT_EQ(describe({0, SIGKILL}), "killed by signal 9 (Killed)");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Base64 against RFC 4648's own examples, and against a decoder that knows only the alphabet.
-#include "sim/files/base64.h"
+// Bytes that are written piece by piece come back, by a decoder that knows only the alphabet.
+#include "sim/pictures/base64.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 namespace hopmesh::tests {
 namespace {
 
-using namespace files;
+using namespace pictures;
 
 template <class Fill> std::string written(Fill fill) {
   const Folder folder;
-  OutputFile file(folder / "digits.txt");
+  files::OutputFile file(folder / "digits.txt");
   Base64Writer writer(file);
   fill(writer);
   writer.end();
@@ -32,17 +32,6 @@ std::string decoded(const std::string& digits) {
   for (std::size_t k = 0; k + 8 <= bits.size(); k += 8)
     text += static_cast<char>(std::stoi(bits.substr(k, 8), nullptr, 2));
   return text;
-}
-
-TEST(Base64, ExamplesOfTheStandard) {
-  const std::vector<std::pair<std::string, std::string>> examples{{"", ""},
-                                                                  {"f", "Zg=="},
-                                                                  {"fo", "Zm8="},
-                                                                  {"foo", "Zm9v"},
-                                                                  {"foob", "Zm9vYg=="},
-                                                                  {"fooba", "Zm9vYmE="},
-                                                                  {"foobar", "Zm9vYmFy"}};
-  for (const auto& [text, digits] : examples) EXPECT_EQ(encoded(text), digits);
 }
 
 TEST(Base64, AnyBytesOfAnyLengthComeBack) {
