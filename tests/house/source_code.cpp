@@ -1,4 +1,4 @@
-#include "tests/house/code.h"
+#include "tests/house/source_code.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 // Habits of code that a reader can count on: short functions, comments that name their subject, and levels
 // that are named at home only. First of all, that the reading of code is not blind.
 #include "sim/levels/level.h"
-#include "tests/house/code.h"
+#include "tests/house/source_code.h"
 #include "tests/house/tree.h"
 
 #include <gmock/gmock.h>

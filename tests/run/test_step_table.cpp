@@ -1,6 +1,6 @@
 // A column of steps.csv is a line of its table: file, totals and curves follow it.
 #include "sim/run/run_picture.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // A column of results.csv is a line of its table: header, cells and the roles of a chart follow it.
 #include "sim/study/result_table.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <gmock/gmock.h>
 
