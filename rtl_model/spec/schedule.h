@@ -9,7 +9,7 @@
 
 namespace hopmesh::spec {
 
-/// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it,
+/// Neurons are numbered cell * neurons_per_cell + p. An entry is a phase: the neurons that fire in it,
 /// ascending.
 using Phases = std::vector<std::vector<std::uint32_t>>;
 

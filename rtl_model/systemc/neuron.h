@@ -1,4 +1,4 @@
-// One two-part neuron: an input accumulator and an output stage, and the processes that wake them.
+// A two-part neuron: an input accumulator and an output stage, and the processes that wake them.
 #pragma once
 
 #include "rtl_model/spec/relaxation.h"

@@ -10,7 +10,7 @@
 namespace hopmesh::systemc {
 
 /// How neuron processes wake: at the end of their phase, accounting for its cycles; or at every clock, as in
-/// waves. Both give the same bits at the same times.
+/// waves. Phases and clocks give the same bits at the same times.
 enum class Waking { by_phase, by_clock };
 
 /// Cycles of all runs so far, counted on: [first, last) is walked clock by clock.

@@ -7,7 +7,7 @@ AddVerb add_run, add_compare;
 AddVerb add_info, add_vectors, add_fuzz;
 AddVerb add_sweep, add_chart, add_stability, add_budget, add_size;
 AddVerb add_network, add_solve, add_problem, add_solvers;
-AddVerb add_scenes, add_presets, add_studies, add_problems, add_help;
+AddVerb add_scenes, add_presets, add_levels, add_studies, add_problems, add_help;
 
 namespace {
 
@@ -33,6 +33,7 @@ constexpr Verb verbs[] = {
     {add_solvers, "Networks"}, //
     {add_scenes, "What there is"},
     {add_presets, "What there is"},
+    {add_levels, "What there is"},
     {add_studies, "What there is"}, //
     {add_problems, "What there is"},
     {add_help, "What there is"},

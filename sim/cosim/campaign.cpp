@@ -65,39 +65,37 @@ void say(int pipe, const std::string& line) {
   }
 }
 
-[[noreturn]] void do_batch(const std::vector<Contestant>& contestants, std::uint64_t seed, Batch batch,
-                           int pipe) {
+[[noreturn]] void do_batch(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
   std::vector<CampaignCase> cases;
   std::vector<MadeAhead> ahead;
   const auto takes_part = [&](std::uint64_t number) {
-    return [&contestants, seed, number](std::size_t k) {
-      return contestants[k].one_in == 1 || mixed(mixed(seed + k) ^ number) % contestants[k].one_in == 0;
+    return [&ways, seed, number](std::size_t k) {
+      return ways[k].one_in == 1 || mixed(mixed(seed + k) ^ number) % ways[k].one_in == 0;
     };
   };
   alarm(case_seconds);
   for (std::uint64_t k = 0; k < batch.count; ++k) {
     say(pipe, fmt::format("c {}\n", batch.first + k));
     cases.push_back(campaign_case(seed, batch.first + k));
-    ahead.push_back(make_ahead(contestants, cases.back().job, takes_part(batch.first + k)));
+    ahead.push_back(make_ahead(ways, cases.back().job, takes_part(batch.first + k)));
   }
   for (std::uint64_t k = 0; k < batch.count; ++k) {
     const std::uint64_t number = batch.first + k;
     say(pipe, fmt::format("r {}\n", number));
     alarm(case_seconds);
-    const Mismatch m = contest(contestants, cases[k].job, ahead[k], cases[k].every_sweep, takes_part(number));
-    if (!m.text.empty()) say(pipe, fmt::format("m {} {} {}\n", number, m.contestant, m.text));
+    const Mismatch m = contest(ways, cases[k].job, ahead[k], cases[k].every_sweep, takes_part(number));
+    if (!m.text.empty()) say(pipe, fmt::format("m {} {} {}\n", number, m.way, m.text));
   }
   say(pipe, "d\n");
   _exit(0); // no destructors: SystemC would spend a third of the batch's time on its own
 }
 
-[[noreturn]] void be_child(const std::vector<Contestant>& contestants, std::uint64_t seed, Batch batch,
-                           int pipe) {
+[[noreturn]] void be_child(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
   std::signal(SIGINT, SIG_IGN); // the parent decides
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGALRM, SIG_DFL);
   try {
-    do_batch(contestants, seed, batch, pipe);
+    do_batch(ways, seed, batch, pipe);
   } catch (const std::exception& e) {
     say(pipe, fmt::format("e {}\n", e.what()));
   }
@@ -117,9 +115,9 @@ struct Child {
 
 class Parent {
  public:
-  Parent(const std::vector<Contestant>& contestants, const CampaignPlan& plan,
-         const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop)
-      : contestants_(contestants), plan_(plan), progress_(progress), stop_(stop), next_(plan.first) {}
+  Parent(const Ways& ways, const CampaignPlan& plan, const std::function<void(std::uint64_t)>& progress,
+         const std::atomic<bool>& stop)
+      : ways_(ways), plan_(plan), progress_(progress), stop_(stop), next_(plan.first) {}
   ~Parent() {
     for (Child& child : children_) {
       kill(child.pid, SIGKILL);
@@ -158,7 +156,7 @@ class Parent {
     if (pid < 0) throw std::runtime_error("no child process can be made");
     if (pid == 0) {
       close(ends[0]);
-      be_child(contestants_, plan_.seed, batch, ends[1]);
+      be_child(ways_, plan_.seed, batch, ends[1]);
     }
     close(ends[1]);
     Child child;
@@ -196,8 +194,8 @@ class Parent {
     if (line[0] != 'm') return;
     std::size_t used = 0, more = 0;
     const std::uint64_t number = std::stoull(rest, &used);
-    const std::size_t contestant = std::stoul(rest.substr(used), &more);
-    found({number, contestant, rest.substr(used + more + 1)});
+    const std::size_t way = std::stoul(rest.substr(used), &more);
+    found({number, way, rest.substr(used + more + 1)});
   }
 
   void found(const Finding& finding) {
@@ -233,7 +231,7 @@ class Parent {
     progress_(done);
   }
 
-  const std::vector<Contestant>& contestants_;
+  const Ways& ways_;
   const CampaignPlan plan_;
   const std::function<void(std::uint64_t)>& progress_;
   const std::atomic<bool>& stop_;
@@ -244,10 +242,10 @@ class Parent {
 
 } // namespace
 
-CampaignResult run_campaign(const std::vector<Contestant>& contestants, const CampaignPlan& plan,
+CampaignResult run_campaign(const Ways& ways, const CampaignPlan& plan,
                             const std::function<void(std::uint64_t)>& progress,
                             const std::atomic<bool>& stop) {
-  return Parent(contestants, plan, progress, stop).run();
+  return Parent(ways, plan, progress, stop).run();
 }
 
 } // namespace hopmesh::cosim

@@ -26,7 +26,7 @@ struct CampaignPlan {
 
 struct Finding {
   std::uint64_t number = 0;
-  std::size_t contestant = 0; ///< that differs from the first; 0: one of them crashed
+  std::size_t way = 0; ///< that differs from the first; 0: one of them crashed
   std::string text;
 };
 
@@ -40,7 +40,7 @@ struct CampaignResult {
 
 /// Forks before anything of SystemC is made: the calling process must not have made any. `progress` is told
 /// the number of cases done.
-CampaignResult run_campaign(const std::vector<Contestant>& contestants, const CampaignPlan& plan,
+CampaignResult run_campaign(const Ways& ways, const CampaignPlan& plan,
                             const std::function<void(std::uint64_t)>& progress,
                             const std::atomic<bool>& stop);
 

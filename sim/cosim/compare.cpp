@@ -9,6 +9,8 @@
 
 namespace hopmesh::cosim {
 
+using levels::ReadyLevel;
+
 namespace {
 
 Distance distance(std::uint64_t steps, const std::vector<double>& a, const std::vector<double>& b) {
@@ -43,38 +45,40 @@ bool is_mark(std::uint64_t step, std::uint64_t steps) {
 
 namespace {
 
-// One step of every contender, or how and why there was none.
-std::vector<levels::StepRow> advance_all(std::vector<Contender>& contenders, Comparison& result) {
+// One step of every level, or how and why there was none.
+std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, Comparison& result) {
   std::vector<levels::StepRow> rows;
   try {
-    for (Contender& c : contenders) rows.push_back(c.motion->advance());
+    for (const ReadyLevel& c : ready) rows.push_back(c.motion->advance());
     result.steps += 1;
     return rows;
   } catch (const levels::Diverged& why) {
     result.outcome = run::Outcome::diverged;
     result.sentence =
-        fmt::format("{} diverged in step {}: {}.", contenders[rows.size()].level, result.steps, why.what());
+        fmt::format("{} diverged in step {}: {}.", ready[rows.size()].level->name, result.steps, why.what());
   } catch (const levels::Stopped&) {
     result.outcome = run::Outcome::interrupted;
   }
   return {};
 }
 
-void note_rows(const std::vector<Contender>& contenders, const std::vector<levels::StepRow>& rows,
+void note_rows(const std::vector<ReadyLevel>& ready, const std::vector<levels::StepRow>& rows,
                Comparison& result) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     note(result.levels[k], rows[k]);
     if (rows[k].max_stretch < run::most_stretch) continue;
     result.outcome = run::Outcome::diverged;
     result.sentence = fmt::format("{} diverged in step {}: a spring is {:.3g} times its length.",
-                                  contenders[k].level, rows[k].step, rows[k].max_stretch);
+                                  ready[k].level->name, rows[k].step, rows[k].max_stretch);
   }
 }
 
-Difference difference(const Contender& a, const levels::StepRow& row_a, const Contender& b,
+Difference difference(const ReadyLevel& a, const levels::StepRow& row_a, const ReadyLevel& b,
                       const levels::StepRow& row_b) {
   Difference d;
-  d.level[0] = a.level, d.level[1] = b.level;
+  d.level[0] = a.level->name, d.level[1] = b.level->name;
+  if (const ReadyLevel* waving = b.level->can_wave ? &b : a.level->can_wave ? &a : nullptr)
+    d.waving = waving->level->name;
   d.step = row_a.step;
   d.sweeps[0] = row_a.sweeps, d.sweeps[1] = row_b.sweeps;
   d.cycles[0] = row_a.cycles, d.cycles[1] = row_b.cycles;
@@ -84,16 +88,15 @@ Difference difference(const Contender& a, const levels::StepRow& row_a, const Co
 // All fixed levels of a comparison after one step: the first of them, and the others held against it.
 class Round {
  public:
-  Round(const std::vector<Contender>& contenders, const std::vector<levels::StepRow>& rows,
+  Round(const std::vector<ReadyLevel>& ready, const std::vector<levels::StepRow>& rows,
         const levels::BuiltMesh& mesh, const spec::ArraySpec& array)
-      : contenders_(contenders), rows_(rows), mesh_(mesh) {
-    for (std::size_t k = 0; k < contenders.size(); ++k)
-      if (contenders[k].array) fixed_.push_back(k), buses_.push_back(&contenders[k].port->bus());
+      : ready_(ready), rows_(rows), mesh_(mesh) {
+    for (std::size_t k = 0; k < ready.size(); ++k)
+      if (ready[k].array) fixed_.push_back(k), buses_.push_back(&ready[k].port->bus());
     if (fixed_.size() < 2) return;
     const BusArray first(*buses_[0], mesh.topology());
     run_sweeps_ = first.read(HM_REG_SWEEPS);
-    const std::uint64_t high = first.read(HM_REG_CYCLES_HI);
-    run_cycles_ = high << 32 | first.read(HM_REG_CYCLES_LO);
+    run_cycles_ = first.read_wide(HM_REG_CYCLES_LO);
     job_ = loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
   }
 
@@ -114,7 +117,7 @@ class Round {
   }
 
  private:
-  const Contender& of(std::size_t k) const { return contenders_[fixed_[k]]; }
+  const ReadyLevel& of(std::size_t k) const { return ready_[fixed_[k]]; }
   Difference between(std::size_t k) const {
     Difference d = difference(of(0), rows_[fixed_[0]], of(k), rows_[fixed_[k]]);
     d.cycles_before = rows_[fixed_[0]].cycles - run_cycles_;
@@ -134,7 +137,7 @@ class Round {
     return d;
   }
 
-  const std::vector<Contender>& contenders_;
+  const std::vector<ReadyLevel>& ready_;
   const std::vector<levels::StepRow>& rows_;
   const levels::BuiltMesh& mesh_;
   std::vector<std::size_t> fixed_;
@@ -145,15 +148,14 @@ class Round {
 };
 
 // Every fixed level against the first of them.
-void compare_codes(const std::vector<Contender>& contenders, const std::vector<levels::StepRow>& rows,
+void compare_codes(const std::vector<ReadyLevel>& ready, const std::vector<levels::StepRow>& rows,
                    const levels::BuiltMesh& mesh, const spec::ArraySpec& array, Comparison& result) {
   try {
-    Round round(contenders, rows, mesh, array);
+    Round round(ready, rows, mesh, array);
     result.pairs = round.pairs();
     result.difference = round.judge();
     if (!result.difference) result.sweeps_compared += round.sweeps();
-  } catch (const BusFault& fault) {
-    if (fault.error != HM_ERROR_STOPPED) throw;
+  } catch (const levels::Stopped&) {
     result.outcome = run::Outcome::interrupted;
   }
   if (!result.difference) return;
@@ -164,32 +166,32 @@ void compare_codes(const std::vector<Contender>& contenders, const std::vector<l
 }
 
 // The reference, where it takes part, comes first.
-void note_distances(const std::vector<Contender>& contenders, Comparison& result) {
-  if (contenders[0].array) return;
-  for (std::size_t k = 1; k < contenders.size(); ++k)
+void note_distances(const std::vector<ReadyLevel>& ready, Comparison& result) {
+  if (ready[0].level->kind != levels::Kind::reference) return;
+  for (std::size_t k = 1; k < ready.size(); ++k)
     result.levels[k].distances.push_back(
-        distance(result.steps, contenders[0].motion->positions(), contenders[k].motion->positions()));
+        distance(result.steps, ready[0].motion->positions(), ready[k].motion->positions()));
 }
 
 } // namespace
 
-Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh,
+Comparison compare(const std::vector<ReadyLevel>& ready, const levels::BuiltMesh& mesh,
                    const spec::ArraySpec& array, std::uint64_t steps,
                    const std::function<void(const levels::StepRow&)>& after_step,
                    const std::atomic<bool>& stop) {
   Comparison result;
-  for (const Contender& c : contenders) result.levels.push_back({c.level, 0, 0, 0, 0, {}, 0, 0});
+  for (const ReadyLevel& c : ready) result.levels.push_back({c.level->name, 0, 0, 0, 0, {}, 0, 0});
   while (result.steps < steps && !result.difference && result.outcome == run::Outcome::finished) {
     if (stop) {
       result.outcome = run::Outcome::interrupted;
       break;
     }
-    const std::vector<levels::StepRow> rows = advance_all(contenders, result);
+    const std::vector<levels::StepRow> rows = advance_all(ready, result);
     if (rows.empty()) break;
-    note_rows(contenders, rows, result);
-    compare_codes(contenders, rows, mesh, array, result);
+    note_rows(ready, rows, result);
+    compare_codes(ready, rows, mesh, array, result);
     if (is_mark(result.steps, steps) || result.outcome != run::Outcome::finished)
-      note_distances(contenders, result);
+      note_distances(ready, result);
     after_step(rows.back());
   }
   if (result.outcome == run::Outcome::interrupted)
@@ -205,10 +207,9 @@ namespace {
 
 // From the sweep before to the sweep behind the difference; the whole step where no cycle is known.
 std::string wave_command(const Difference& d, const std::string& inputs) {
-  std::string command =
-      fmt::format("hopmesh run {} --level systemc --no-check --steps {} --out out/difference "
-                  "--wave difference.vcd --wave-window ",
-                  inputs, d.step + 1);
+  std::string command = fmt::format("hopmesh run {} --level {} --no-check --steps {} --out out/difference "
+                                    "--wave difference.vcd --wave-window ",
+                                    inputs, d.waving, d.step + 1);
   if (!d.where) return command + fmt::format("{}:{}", d.step, d.step + 1);
   const std::uint64_t at = d.cycles_before + d.where->cycle, around = d.where->sweep_cycles;
   return command +
@@ -225,7 +226,8 @@ std::string text_of(const Difference& d, const std::string& inputs) {
   else
     text += "  run again from the same start, every output is the same after every sweep: the fault does not "
             "repeat\n";
-  return text + fmt::format("  a wave around it: {}\n", wave_command(d, inputs));
+  if (!d.waving.empty()) text += fmt::format("  a wave around it: {}\n", wave_command(d, inputs));
+  return text;
 }
 
 std::string text_of(const LevelReport& r) {

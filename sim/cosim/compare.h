@@ -3,17 +3,10 @@
 #pragma once
 
 #include "sim/cosim/explain.h"
+#include "sim/levels/level.h"
 #include "sim/run/simulation.h"
 
 namespace hopmesh::cosim {
-
-/// A level taking part: `port` and `array` only where it is a fixed one.
-struct Contender {
-  std::string level;
-  levels::Motion* motion = nullptr;
-  levels::ArrayMotion* array = nullptr;
-  levels::ArrayPort* port = nullptr;
-};
 
 /// Distance between the free motions of a level and of the reference after so many steps.
 struct Distance {
@@ -30,6 +23,7 @@ struct LevelReport {
 
 struct Difference {
   std::string level[2];
+  std::string waving; ///< the one of them that a wave is cut of; "" where neither can
   std::uint64_t step = 0;
   std::uint64_t sweeps[2] = {0, 0}, cycles[2] = {0, 0};
   /// Cycles of all runs before the one that differs (the step's last expansion), as waves count them.
@@ -48,17 +42,16 @@ struct Comparison {
   std::optional<Difference> difference; ///< the first; nothing after it was compared
 };
 
-/// Advances all contenders together; a reference must come first. After each step the fixed levels relax its
+/// Advances all levels together; a reference must come first. After each step the fixed levels relax its
 /// network once more, in lockstep, and are compared after every sweep (with several expansions: that of the
 /// last one). `after_step` is told the number of steps done.
-Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& mesh,
+Comparison compare(const std::vector<levels::ReadyLevel>& ready, const levels::BuiltMesh& mesh,
                    const spec::ArraySpec& array, std::uint64_t steps,
                    const std::function<void(const levels::StepRow&)>& after_step,
                    const std::atomic<bool>& stop);
 
 /// The comparison for people, a few lines. `inputs`: SCENE and options as a command line has them, for the
 /// command that cuts a wave around a difference.
-std::string text_of(const Comparison& comparison, const std::string& inputs,
-                         const spec::ArraySpec& array);
+std::string text_of(const Comparison& comparison, const std::string& inputs, const spec::ArraySpec& array);
 
 } // namespace hopmesh::cosim

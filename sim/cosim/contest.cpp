@@ -13,12 +13,11 @@ Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
   Answer a;
   for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4)
     a.capabilities.push_back(array.read(at));
-  array.load(job);
+  load(array, job);
   a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();
   a.end = array.run(job.threshold, job.max_sweeps);
   a.output = array.outputs();
-  const std::uint64_t high = array.read(HM_REG_BUS_CYCLES_HI);
-  a.bus_cycles = high << 32 | array.read(HM_REG_BUS_CYCLES_LO);
+  a.bus_cycles = array.read_wide(HM_REG_BUS_CYCLES_LO);
   if (!every_sweep) return a;
   array.put_outputs(job.start);
   for (std::uint32_t sweep = 0; sweep < a.end.sweeps; ++sweep) {
@@ -70,32 +69,34 @@ std::string unequal(const Answer& a, const Answer& b, const ArrayJob& job) {
   return "";
 }
 
-MadeAhead make_ahead(const std::vector<Contestant>& contestants, const ArrayJob& job,
+MadeAhead make_ahead(const Ways& ways, const ArrayJob& job,
                      const std::function<bool(std::size_t)>& takes_part) {
-  MadeAhead made(contestants.size());
-  for (std::size_t k = 0; k < contestants.size(); ++k)
-    if (contestants[k].ahead && takes_part(k)) made[k] = contestants[k].make(job);
+  MadeAhead made(ways.size());
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    if (ways[k].made_ahead && takes_part(k)) made[k] = ways[k].make(job.array, job.topology);
   return made;
 }
 
-Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job, const MadeAhead& ahead,
-                 bool every_sweep, const std::function<bool(std::size_t)>& takes_part) {
-  const auto bus_of = [&](std::size_t k) -> SharedBus {
-    if (!takes_part(k)) return nullptr;
-    return contestants[k].ahead ? ahead[k] : contestants[k].make(job);
+Mismatch contest(const Ways& ways, const ArrayJob& job, const MadeAhead& ahead, bool every_sweep,
+                 const std::function<bool(std::size_t)>& takes_part) {
+  std::unique_ptr<levels::ArrayPort> made;
+  const auto array_of = [&](std::size_t k) {
+    if (!takes_part(k) || ways[k].made_ahead) return ahead[k].get();
+    made = ways[k].make(job.array, job.topology);
+    return made.get();
   };
-  const Answer first = ask(*bus_of(0), job, every_sweep);
-  for (std::size_t k = 1; k < contestants.size(); ++k)
-    if (const SharedBus bus = bus_of(k)) {
-      const std::string text = unequal(first, ask(*bus, job, every_sweep), job);
-      if (!text.empty()) return {k, contestants[0].name + " and " + contestants[k].name + ": " + text};
+  const Answer first = ask(array_of(0)->bus(), job, every_sweep);
+  for (std::size_t k = 1; k < ways.size(); ++k)
+    if (levels::ArrayPort* array = array_of(k)) {
+      const std::string text = unequal(first, ask(array->bus(), job, every_sweep), job);
+      if (!text.empty()) return {k, ways[0].name + " and " + ways[k].name + ": " + text};
     }
   return {};
 }
 
-Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job) {
+Mismatch contest(const Ways& ways, const ArrayJob& job) {
   const auto all = [](std::size_t) { return true; };
-  return contest(contestants, job, make_ahead(contestants, job, all), true, all);
+  return contest(ways, job, make_ahead(ways, job, all), true, all);
 }
 
 } // namespace hopmesh::cosim

@@ -1,25 +1,14 @@
 // The same job put to several arrays: everything that a host can see must be equal.
 #pragma once
 
-#include "sim/cosim/bus_array.h"
-
-#include <functional>
-#include <memory>
-#include <string>
+#include "sim/cosim/loaded_job.h"
+#include "sim/levels/level.h"
 
 namespace hopmesh::cosim {
 
-/// A bus, and with it the array behind it.
-using SharedBus = std::shared_ptr<const hm_bus>;
-
-/// One way of building an array. The first of several is the one that the others are held against: it must
-/// take any job.
-struct Contestant {
-  std::string name;
-  std::function<SharedBus(const ArrayJob&)> make; ///< null where it cannot have this array
-  bool ahead = false;       ///< all arrays are made before one is used (SystemC elaborates once a process)
-  std::uint64_t one_in = 1; ///< takes part in so many of the cases of a campaign
-};
+using levels::Way;
+/// The first is the one that the others are held against: it must take any job.
+using Ways = std::vector<Way>;
 
 /// All that a host sees of a job: capabilities, memories read back, the run, and each sweep of it.
 struct Answer {
@@ -35,20 +24,20 @@ Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep);
 /// In words, where two answers differ first; "" where they do not.
 std::string unequal(const Answer& a, const Answer& b, const ArrayJob& job);
 
-/// How one contestant differs from the first.
+/// How one way differs from the first.
 struct Mismatch {
-  std::size_t contestant = 0;
+  std::size_t way = 0;
   std::string text; ///< "" if all are equal
 };
 
-/// Arrays that were made ahead, by contestant; others are made here, and null stands for one that takes no
-/// part.
-using MadeAhead = std::vector<SharedBus>;
-MadeAhead make_ahead(const std::vector<Contestant>& contestants, const ArrayJob& job,
+/// Arrays that were made ahead, by way; null stands for one that takes no part, or is made when its turn
+/// comes.
+using MadeAhead = std::vector<std::unique_ptr<levels::ArrayPort>>;
+MadeAhead make_ahead(const Ways& ways, const ArrayJob& job,
                      const std::function<bool(std::size_t)>& takes_part);
-Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job, const MadeAhead& ahead,
-                 bool every_sweep, const std::function<bool(std::size_t)>& takes_part);
+Mismatch contest(const Ways& ways, const ArrayJob& job, const MadeAhead& ahead, bool every_sweep,
+                 const std::function<bool(std::size_t)>& takes_part);
 /// All of them, every sweep.
-Mismatch contest(const std::vector<Contestant>& contestants, const ArrayJob& job);
+Mismatch contest(const Ways& ways, const ArrayJob& job);
 
 } // namespace hopmesh::cosim

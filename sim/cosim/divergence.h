@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/cosim/bus_array.h"
+#include "sim/cosim/loaded_job.h"
 
 namespace hopmesh::cosim {
 

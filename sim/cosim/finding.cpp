@@ -36,46 +36,44 @@ int in_child(const std::function<int()>& work, unsigned seconds) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 100 + WTERMSIG(status);
 }
 
-bool differs_in_child(const std::vector<Contestant>& contestants, const ArrayJob& job) {
-  return in_child([&] { return contest(contestants, job).text.empty() ? 0 : differ; }, trial_seconds) != 0;
+bool differs_in_child(const Ways& ways, const ArrayJob& job) {
+  return in_child([&] { return contest(ways, job).text.empty() ? 0 : differ; }, trial_seconds) != 0;
 }
 
-std::vector<Contestant> involved(const std::vector<Contestant>& contestants, const Finding& finding) {
-  if (finding.contestant == 0) return contestants;
-  return {contestants[0], contestants[finding.contestant]};
+Ways involved(const Ways& ways, const Finding& finding) {
+  if (finding.way == 0) return ways;
+  return {ways[0], ways[finding.way]};
 }
 
 namespace {
 
-void comment_answers(VectorWriter& file, const Contestant& contestant, const ArrayJob& job,
-                     const SharedBus& bus) {
-  if (!bus) return;
-  const Answer a = ask(*bus, job, true);
-  file.comment(fmt::format("{}: end {} {:d} {} {}", contestant.name, a.end.sweeps, a.end.converged,
+void comment_answers(VectorWriter& file, const Way& way, const ArrayJob& job, levels::ArrayPort* array) {
+  if (!array) return;
+  const Answer a = ask(array->bus(), job, true);
+  file.comment(fmt::format("{}: end {} {:d} {} {}", way.name, a.end.sweeps, a.end.converged,
                            a.end.largest_change, a.end.cycles));
   for (std::size_t k = 0; k < a.outputs.size(); ++k)
-    file.comment(fmt::format("{}: after sweep {} {}", contestant.name, k + 1, fmt::join(a.outputs[k], " ")));
+    file.comment(fmt::format("{}: after sweep {} {}", way.name, k + 1, fmt::join(a.outputs[k], " ")));
 }
 
-int write_whole(const std::filesystem::path& path, const VectorCase& a_case,
-                const std::vector<Contestant>& contestants, const std::vector<std::string>& comments) {
-  std::vector<SharedBus> buses;
-  for (const Contestant& c : contestants) buses.push_back(c.make(a_case.job));
+int write_whole(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
+                const std::vector<std::string>& comments) {
+  std::vector<std::unique_ptr<levels::ArrayPort>> arrays;
+  for (const Way& way : ways) arrays.push_back(way.make(a_case.job.array, a_case.job.topology));
   VectorWriter file(path);
   for (const std::string& line : comments) file.comment(line);
-  for (std::size_t k = 0; k < contestants.size(); ++k)
-    comment_answers(file, contestants[k], a_case.job, buses[k]);
-  file.add(a_case, buses[0].get());
+  for (std::size_t k = 0; k < ways.size(); ++k) comment_answers(file, ways[k], a_case.job, arrays[k].get());
+  file.add(a_case, &arrays[0]->bus());
   file.commit();
   return 0;
 }
 
 } // namespace
 
-void write_finding(const std::filesystem::path& path, const VectorCase& a_case,
-                   const std::vector<Contestant>& contestants, const std::vector<std::string>& comments) {
+void write_finding(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
+                   const std::vector<std::string>& comments) {
   files::check_writable(std::filesystem::absolute(path).parent_path(), 1 << 20);
-  if (in_child([&] { return write_whole(path, a_case, contestants, comments); }, trial_seconds) == 0) return;
+  if (in_child([&] { return write_whole(path, a_case, ways, comments); }, trial_seconds) == 0) return;
   VectorWriter file(path); // whoever crashes, the case itself is kept
   for (const std::string& line : comments) file.comment(line);
   file.add(a_case, nullptr);

@@ -11,15 +11,15 @@ namespace hopmesh::cosim {
 /// (0 to 99), or 100 and the number of the signal that killed it; after `seconds` it is killed.
 int in_child(const std::function<int()>& work, unsigned seconds);
 
-/// Do these contestants disagree on the job, or does one of them crash?
-bool differs_in_child(const std::vector<Contestant>& contestants, const ArrayJob& job);
+/// Do these ways disagree on the job, or does one of them crash?
+bool differs_in_child(const Ways& ways, const ArrayJob& job);
 
-/// The two contestants of a finding, or all where a crash does not say whose it is.
-std::vector<Contestant> involved(const std::vector<Contestant>& contestants, const Finding& finding);
+/// The two ways of a finding, or all where a crash does not say whose it is.
+Ways involved(const Ways& ways, const Finding& finding);
 
-/// A vector file with the job, the first contestant's answers (none if it crashes), and in comments what the
-/// others say. Throws record::WriteError.
-void write_finding(const std::filesystem::path& path, const VectorCase& a_case,
-                   const std::vector<Contestant>& contestants, const std::vector<std::string>& comments);
+/// A vector file with the job, the first way's answers (none if it crashes), and in comments what the
+/// others say. Throws files::WriteError.
+void write_finding(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
+                   const std::vector<std::string>& comments);
 
 } // namespace hopmesh::cosim

@@ -44,7 +44,7 @@ struct AnswerLine {
   spec::Relaxation run; ///< of `end`
 };
 
-/// Reads a file line by line, however long it is; throws scene::InputError with the line of a mistake.
+/// Reads a file line by line, however long it is; throws input::InputError with the line of a mistake.
 class VectorReader {
  public:
   explicit VectorReader(const std::string& path);

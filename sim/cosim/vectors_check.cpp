@@ -63,7 +63,7 @@ std::string check_answers(const std::string& path, VectorReader& reader, const V
   const Timing timing(job);
   const Judge judge{path, a_case, timing};
   const BusArray array(bus, job.topology);
-  array.load(job);
+  load(array, job);
   const Codes start = array.outputs(); // held within [-1, 1] as it was written
   const spec::Relaxation end = array.run(job.threshold, job.max_sweeps);
   array.put_outputs(job.start);

@@ -27,10 +27,6 @@ const std::array<Rule, 64>& rules() {
 
 constexpr std::uint32_t first_volatile = HM_REG_CONTROL; ///< capabilities lie below, and stay
 
-Device* device(void* context) {
-  return static_cast<Device*>(context);
-}
-
 } // namespace
 
 Device::Device(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options,
@@ -39,20 +35,6 @@ Device::Device(const spec::ArraySpec& array, const spec::Topology& topology, con
   for (std::size_t k = 0; k < registers_.size(); ++k) registers_[k] = rules()[k].reset;
   for (const auto& [offset, word] : spec::capability_words(array, topology, engine_.phases()))
     reg(offset) = word;
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return device(c)->read(address, word, 1);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return device(c)->write(address, &word, 1);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return device(c)->read(address, words, count);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return device(c)->write(address, words, count);
-  };
-  bus_.wait = [](void* c) { return device(c)->wait(); };
 }
 
 bool Device::busy() const {
@@ -172,7 +154,7 @@ void Device::reset() {
   engine_.write_outputs(0, zeros.data(), t.neurons());
 }
 
-int Device::wait() {
+int Device::wait_for_irq() {
   if (irq()) return HM_OK;
   if (stop_) return HM_ERROR_STOPPED;
   if (busy() && !begun_) {

@@ -27,7 +27,7 @@ struct SparseMatrix {
 
 /// `coordinate` (real, integer, pattern; a pattern's values are 1) or `array` (real, integer), `general` or
 /// `symmetric`; both halves of a symmetric one are given. Zeros of an `array` are no entries. Throws
-/// scene::InputError for everything else, with the line, and for values that are not finite.
+/// input::InputError for everything else, with the line, and for values that are not finite.
 SparseMatrix read_matrix(const std::string& path);
 /// The same of one column, as a dense vector.
 std::vector<double> read_vector(const std::string& path);

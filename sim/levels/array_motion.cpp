@@ -1,31 +1,13 @@
 #include "sim/levels/array_motion.h"
 
 #include "firmware/registers.h"
+#include "sim/levels/bus_array.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 namespace hopmesh::levels {
-
-std::string error_text(int error) {
-  switch (error) {
-  case HM_ERROR_BUS:
-    return "the bus refused a transfer";
-  case HM_ERROR_ID:
-    return "there is no Hopmesh array of this version behind the bus";
-  case HM_ERROR_MESH:
-    return "the array was built for another mesh";
-  case HM_ERROR_NUMBER:
-    return "a weight, a bias or a start value is not finite";
-  case HM_ERROR_BUSY:
-    return "the array was running when it should not";
-  case HM_ERROR_SPACE:
-    return "the driver's buffer is too small";
-  default:
-    return "error " + std::to_string(error);
-  }
-}
 
 namespace {
 
@@ -62,7 +44,7 @@ hm_motion motion_of(const scene::Scene& scene) {
 
 ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                          ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port.bus(), array), motion_(motion_of(scene)),
+    : mesh_(mesh), port_(port), profile_(port, array), motion_(motion_of(scene)),
       memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
@@ -70,9 +52,8 @@ ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const
 
 // The array is looked at with the first step, when every port of the process has been made.
 void ArrayMotion::open() {
-  const int error = hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
-                                   static_cast<std::uint32_t>(buffer_.size()));
-  if (error != HM_OK) throw std::runtime_error(error_text(error));
+  check(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
+                       static_cast<std::uint32_t>(buffer_.size())));
 }
 
 StepRow ArrayMotion::advance() {
@@ -90,7 +71,7 @@ StepRow ArrayMotion::advance() {
     throw Stopped();
   }
   if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
-  if (error != HM_OK && error != HM_ERROR_LOST) throw std::runtime_error(error_text(error));
+  if (error != HM_ERROR_LOST) check(error);
   port_.end_step(step);
   if (error == HM_ERROR_LOST)
     throw Diverged("node " + std::to_string(result.lost_node) + " has no finite position");
@@ -118,20 +99,7 @@ StepRow ArrayMotion::advance() {
 }
 
 std::uint64_t ArrayMotion::bus_cycles() const {
-  const hm_bus& bus = port_.bus();
-  std::uint32_t low = 0, high = 0;
-  bus.read(bus.context, HM_REG_BUS_CYCLES_LO, &low);
-  bus.read(bus.context, HM_REG_BUS_CYCLES_HI, &high);
-  return std::uint64_t{high} << 32 | low;
-}
-
-// Exact: V is a multiple of the state's last place.
-std::vector<std::int32_t> ArrayMotion::raw(const std::vector<double>& outputs) const {
-  std::vector<std::int32_t> codes(outputs.size());
-  hm_codes(outputs.data(), static_cast<std::uint32_t>(outputs.size()),
-           hm_power_of_two(hm_fraction_bits(&driver_.state)), &driver_.state,
-           reinterpret_cast<std::uint32_t*>(codes.data()));
-  return codes;
+  return BusArray(port_.bus(), mesh_.topology()).read_wide(HM_REG_BUS_CYCLES_LO);
 }
 
 std::vector<SignalRange> ArrayMotion::ranges() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/levels/bus_profile.h"
+#include "sim/levels/codes.h"
 #include "sim/levels/image_force.h"
 #include "sim/levels/motion.h"
 #include "sim/levels/reference_check.h"
@@ -17,21 +18,21 @@ class ArrayMotion : public Motion {
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return memory_.now.position; }
-  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(raw(memory_.now.output)); }
+  std::vector<std::int32_t> outputs_raw() const override { return mesh_.by_node(rest_raw()); }
   std::vector<SignalRange> ranges() const override;
   double judging_seconds() const override { return judging_seconds_; }
   StepState state() const override;
   void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
 
-  /// What the last step loaded: start as raw codes [cells * components].
-  std::vector<std::int32_t> start_raw() const { return raw(memory_.start); }
-  std::vector<std::int32_t> rest_raw() const { return raw(memory_.now.output); }
+  /// What the last step loaded and came to, [cells * components]; exact, as V is a whole number of last
+  /// places.
+  Codes start_raw() const { return to_codes(memory_.start, driver_.state); }
+  Codes rest_raw() const { return to_codes(memory_.now.output, driver_.state); }
   const hm_driver& driver() const { return driver_; }
 
  private:
   void open();
   std::uint64_t bus_cycles() const;
-  std::vector<std::int32_t> raw(const std::vector<double>& outputs) const;
 
   const BuiltMesh& mesh_;
   ArrayPort& port_;
@@ -49,8 +50,5 @@ class ArrayMotion : public Motion {
 
 /// The firmware's motion parameters of a scene; force is gravity plus wind.
 hm_motion motion_of(const scene::Scene& scene);
-
-/// A firmware error as a sentence.
-std::string error_text(int error);
 
 } // namespace hopmesh::levels

@@ -1,15 +1,13 @@
-// The place of an array, whatever it is made of: the firmware sees its bus, the study its figures. Levels
-// plug in here.
+// The place of an array, whatever it is made of: the firmware sees its bus, a run its figures. Levels plug in
+// here.
 #pragma once
 
-#include "firmware/bus.h"
+#include "firmware/host_bus.h"
 #include "rtl_model/spec/array_spec.h"
 #include "rtl_model/spec/relaxation.h"
 #include "rtl_model/spec/topology.h"
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,10 +28,8 @@ inline std::vector<SignalRange> inner_ranges(const spec::ArraySpec& array, const
           {"drive", built.drive, e.least_drive, e.largest_drive}};
 }
 
-class ArrayPort {
+class ArrayPort : public HostBus {
  public:
-  virtual ~ArrayPort() = default;
-  virtual const hm_bus& bus() = 0;
   /// Called around each step with its number, for waves.
   virtual void begin_step(std::uint64_t) {}
   virtual void end_step(std::uint64_t) {}
@@ -44,9 +40,5 @@ class ArrayPort {
   /// What went wrong without touching the results, in one line: a wave that could not be written.
   virtual std::string trouble() const { return {}; }
 };
-
-/// Makes the array of a level. All ports of a process are made before the first is used (SystemC elaborates
-/// once).
-using PortFactory = std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&)>;
 
 } // namespace hopmesh::levels

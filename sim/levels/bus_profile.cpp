@@ -6,34 +6,20 @@
 
 namespace hopmesh::levels {
 
-BusProfile::BusProfile(const hm_bus& inner, const spec::ArraySpec& array)
+BusProfile::BusProfile(HostBus& inner, const spec::ArraySpec& array)
     : inner_(inner), ranges_{SignalRange{"weight", array.formats.weight},
                              SignalRange{"bias", array.formats.bias},
-                             SignalRange{"state", array.formats.state}} {
-  outer_.context = this;
-  outer_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    auto* me = static_cast<BusProfile*>(c);
-    return me->inner_.read(me->inner_.context, address, word);
-  };
-  outer_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    auto* me = static_cast<BusProfile*>(c);
-    return me->inner_.write(me->inner_.context, address, word);
-  };
-  outer_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    auto* me = static_cast<BusProfile*>(c);
-    const int error = me->inner_.read_burst(me->inner_.context, address, words, count);
-    if (error == HM_OK) me->note(address, words, count);
-    return error;
-  };
-  outer_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    auto* me = static_cast<BusProfile*>(c);
-    me->note(address, words, count);
-    return me->inner_.write_burst(me->inner_.context, address, words, count);
-  };
-  outer_.wait = [](void* c) {
-    auto* me = static_cast<BusProfile*>(c);
-    return me->inner_.wait(me->inner_.context);
-  };
+                             SignalRange{"state", array.formats.state}} {}
+
+int BusProfile::read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
+  const int error = inner_.read(address, words, count);
+  if (error == HM_OK) note(address, words, count);
+  return error;
+}
+
+int BusProfile::write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+  note(address, words, count);
+  return inner_.write(address, words, count);
 }
 
 void BusProfile::note(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {

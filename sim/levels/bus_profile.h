@@ -8,20 +8,20 @@
 namespace hopmesh::levels {
 
 /// Stands between firmware and array, and passes everything on unchanged.
-class BusProfile {
+class BusProfile : public HostBus {
  public:
-  BusProfile(const hm_bus& inner, const spec::ArraySpec& array);
-  BusProfile(const BusProfile&) = delete;
-  BusProfile& operator=(const BusProfile&) = delete;
+  BusProfile(HostBus& inner, const spec::ArraySpec& array);
 
-  const hm_bus& bus() const { return outer_; }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override;
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override;
+  int wait_for_irq() override { return inner_.wait_for_irq(); }
+
   std::vector<SignalRange> ranges() const { return {ranges_.begin(), ranges_.end()}; }
 
  private:
   void note(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
 
-  const hm_bus inner_;
-  hm_bus outer_{};
+  HostBus& inner_;
   std::array<SignalRange, 3> ranges_; ///< weight, bias, state
 };
 

@@ -15,7 +15,11 @@ class EnginePort : public ArrayPort {
 
   const engine::Engine& engine() const { return device_.engine(); }
 
-  const hm_bus& bus() override { return wave_ ? bus_ : device_.bus(); }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override {
+    return device_.read(address, words, count);
+  }
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override;
+  int wait_for_irq() override;
   void begin_step(std::uint64_t step) override;
   void end_step(std::uint64_t step) override;
   void finish() override;
@@ -23,14 +27,11 @@ class EnginePort : public ArrayPort {
   std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:
-  int wait();
-  int write(std::uint32_t address, std::uint32_t word);
-  std::uint64_t bus_cycles() const;
+  int waved_run();
 
   engine::Device device_;
   const std::atomic<bool>& stop_;
   std::optional<EngineWave> wave_;
-  hm_bus bus_{}; ///< the device's, with an eye on runs and on the interrupt line
 };
 
 } // namespace hopmesh::levels

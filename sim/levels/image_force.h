@@ -6,7 +6,7 @@
 
 namespace hopmesh::levels {
 
-/// The picture of force.image. Throws scene::InputError for a file that is none, or that shows no edge.
+/// The picture of force.image. Throws input::InputError for a file that is none, or that shows no edge.
 files::GreyPicture picture_of(const scene::Scene& scene);
 
 /// Where a place stands in the picture, in pixels: column, row.

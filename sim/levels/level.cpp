@@ -15,54 +15,89 @@ namespace hopmesh::levels {
 
 namespace {
 
-std::unique_ptr<ArrayPort> engine_port(const spec::ArraySpec& array, const spec::Topology& topology,
-                                       const PortRequest& request) {
-  engine::Options useful = request.engine;
-  if (!request.all_threads) useful.threads = engine::useful_threads(topology, useful.threads);
-  auto port = std::make_unique<EnginePort>(array, topology, useful, request.wave, stop_requested);
+Level reference_row() {
+  Level row{"reference", Kind::reference, "the algorithm in double, sweep by sweep"};
+  row.make_motion = [](const Prepared& p) {
+    return std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, p.inputs.array);
+  };
+  return row;
+}
+
+std::unique_ptr<ArrayPort> make_engine_port(const spec::ArraySpec& array, const spec::Topology& topology,
+                                            const PortRequest& request) {
+  engine::Options options = request.engine;
+  if (!request.all_threads) options.threads = engine::useful_threads(topology, options.threads);
+  auto port = std::make_unique<EnginePort>(array, topology, options, request.wave, stop_requested);
   const std::string why = port->engine().why_no_kernel();
-  if (!why.empty() && !request.quiet)
+  if (!why.empty() && request.remarks)
     fmt::print(stderr, "hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why);
   return port;
 }
 
-template <systemc::Waking waking>
-std::unique_ptr<ArrayPort> systemc_port(const spec::ArraySpec& array, const spec::Topology& topology,
-                                        const PortRequest& request) {
-  return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
-                                       request.wave, stop_requested);
-}
-
 // Every kernel, two threads, and sweeps that follow each other. The first kernel takes any array.
-std::vector<Way> engine_ways() {
-  std::vector<Way> ways;
+std::vector<Variant> engine_variants() {
+  std::vector<Variant> all;
   for (const std::string& kernel : engine::kernel_names())
-    if (kernel != "auto") ways.push_back({"engine (" + kernel + ")", {1, kernel, 1}, 1});
-  ways.push_back({"engine (2 threads)", {2, "auto", 1}, 8});
-  ways.push_back({"engine (sweeps following)", {1, "auto", 3}, 1});
-  return ways;
-}
-
-std::vector<Level> make_table() {
-  constexpr auto by_phase = systemc_port<systemc::Waking::by_phase>;
-  constexpr auto by_clock = systemc_port<systemc::Waking::by_clock>;
-  // name, kind, words, can_resume, can_wave, checked, made_ahead, one_in, make_port, ways
-  std::vector<Level> all{
-      {"reference", Kind::reference, "the algorithm in double", true, false, true, false, 1, nullptr,
-       nullptr},
-      {"engine", Kind::array, "the array as a native program", true, true, false, false, 1, engine_port,
-       engine_ways},
-      {"systemc", Kind::array, "the array in SystemC", true, true, true, true, 1, by_phase, nullptr},
-      {"systemc-clock", Kind::array, "SystemC with every neuron woken at every clock", true, true, true, true,
-       8, by_clock, nullptr},
-  };
-  for (const std::string& name : rivals::names())
-    all.push_back(
-        {name, Kind::rival, "another integrator, in double", true, false, true, false, 1, nullptr, nullptr});
+    if (kernel != "auto") all.push_back({kernel, {1, kernel, 1}, 1});
+  all.push_back({"2 threads", {2, "auto", 1}, 8});
+  all.push_back({"sweeps following", {1, "auto", 3}, 1});
   return all;
 }
 
-bool is_one(Kind kind, std::initializer_list<Kind> kinds) {
+Level engine_row() {
+  Level row{"engine", Kind::array, "the array, by a native program"};
+  row.make_port = make_engine_port;
+  row.variants = engine_variants();
+  row.can_wave = true;
+  row.checked = false; // the reference would take most of the time
+  return row;
+}
+
+Level systemc_row(const std::string& name, const std::string& words, systemc::Waking waking) {
+  Level row{name, Kind::array, words};
+  row.make_port = [waking](const spec::ArraySpec& array, const spec::Topology& topology,
+                           const PortRequest& request) {
+    return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
+                                         request.wave, stop_requested);
+  };
+  row.can_wave = true;
+  row.made_ahead = true; // SystemC elaborates once a process
+  return row;
+}
+
+Level systemc_by_phase() {
+  return systemc_row("systemc", "the array, cycle by cycle in SystemC", systemc::Waking::by_phase);
+}
+
+Level systemc_by_clock() {
+  Level row = systemc_row("systemc-clock", "the array in SystemC, every neuron woken by every clock (slow)",
+                          systemc::Waking::by_clock);
+  row.one_in = 8;
+  return row;
+}
+
+Level rival_row(const std::string& name) {
+  Level row{name, Kind::rival, fmt::format("a rival in double; {}", rivals::about(name))};
+  row.make_motion = [name](const Prepared& p) {
+    return std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
+  };
+  return row;
+}
+
+std::vector<Level> make_table() {
+  std::vector<Level> all{reference_row(), engine_row(), systemc_by_phase(), systemc_by_clock()};
+  for (const std::string& name : rivals::names()) all.push_back(rival_row(name));
+  return all;
+}
+
+template <typename Wanted> std::vector<std::string> names_where(Wanted wanted) {
+  std::vector<std::string> names;
+  for (const Level& level : levels())
+    if (wanted(level)) names.push_back(level.name);
+  return names;
+}
+
+bool is_one_of(Kinds kinds, Kind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
@@ -73,23 +108,19 @@ const std::vector<Level>& levels() {
   return table;
 }
 
-std::vector<std::string> level_names(std::initializer_list<Kind> kinds) {
-  std::vector<std::string> names;
-  for (const Level& level : levels())
-    if (is_one(level.kind, kinds)) names.push_back(level.name);
-  return names;
+std::vector<std::string> level_names(Kinds kinds) {
+  return names_where([&](const Level& level) { return is_one_of(kinds, level.kind); });
 }
 
-std::vector<std::string> method_names() {
-  return level_names({Kind::reference, Kind::array, Kind::rival});
+std::vector<std::string> compared_names() {
+  return names_where([](const Level& level) { return is_one_of(sweeping, level.kind) && level.one_in == 1; });
 }
 
-const Level& level_named(const std::string& name, const std::string& flag,
-                         std::initializer_list<Kind> kinds) {
+const Level& level_named(const std::string& name, const std::string& where, Kinds kinds) {
   for (const Level& level : levels())
-    if (level.name == name && is_one(level.kind, kinds)) return level;
+    if (level.name == name && is_one_of(kinds, level.kind)) return level;
   const auto names = level_names(kinds);
-  throw input::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
+  throw input::input_error("", 0, where, name, fmt::format("{}", fmt::join(names, ", ")),
                            input::nearest_name(name, names));
 }
 
@@ -97,21 +128,44 @@ const Level& default_level() {
   return level_named("engine", "");
 }
 
-const Level& reference_row() {
-  return levels().front();
+namespace {
+
+Way make_way(const Level& level, const Variant& variant) {
+  PortRequest request;
+  request.engine = variant.engine;
+  request.all_threads = true;
+  const auto make = [make = level.make_port, request](const spec::ArraySpec& array,
+                                                      const spec::Topology& topology) {
+    try {
+      return make(array, topology, request);
+    } catch (const std::invalid_argument&) { // not on this processor, or not for this array
+      return std::unique_ptr<ArrayPort>();
+    }
+  };
+  const std::string name =
+      variant.name.empty() ? level.name : fmt::format("{} ({})", level.name, variant.name);
+  return {name, make, level.made_ahead, level.one_in * variant.one_in};
 }
 
-Ready make_ready(const Level& level, const Prepared& p, bool check, const PortRequest& request) {
-  const spec::ArraySpec& array = p.inputs.array;
-  Ready ready;
+} // namespace
+
+std::vector<Way> ways_of(const std::vector<const Level*>& levels) {
+  std::vector<Way> ways;
+  for (const Level* level : levels)
+    for (const Variant& variant : level->variants) ways.push_back(make_way(*level, variant));
+  if (!ways.empty()) ways.front().one_in = 1;
+  return ways;
+}
+
+ReadyLevel make_ready(const Level& level, const Prepared& p, bool check, const PortRequest& request) {
+  ReadyLevel ready;
   ready.level = &level;
-  if (level.kind == Kind::reference)
-    ready.motion = std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, array);
-  if (level.kind == Kind::rival)
-    ready.motion = std::make_unique<RivalMotion>(level.name, p.inputs.scene, *p.mesh);
-  if (!level.has_bus()) return ready;
-  ready.port = level.make_port(array, p.mesh->topology(), request);
-  auto motion = std::make_unique<ArrayMotion>(p.inputs.scene, *p.mesh, array, *ready.port, check);
+  if (!level.has_bus()) {
+    ready.motion = level.make_motion(p);
+    return ready;
+  }
+  ready.port = level.make_port(p.inputs.array, p.mesh->topology(), request);
+  auto motion = std::make_unique<ArrayMotion>(p.inputs.scene, *p.mesh, p.inputs.array, *ready.port, check);
   ready.array = motion.get();
   ready.motion = std::move(motion);
   return ready;

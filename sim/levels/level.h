@@ -1,5 +1,7 @@
-// The table of levels: everything that can answer a step, what it can do, and how it is made. A new level is
-// a row in level.cpp; nobody else compares names.
+// The table of levels: whoever can answer a step of a scene, what it can do, and how it is made. A new level
+// is a port (array_port.h) and a row in level.cpp; nobody else compares names.
+//
+// What every level must do is no column: a run of any of them can be resumed (Motion::restore).
 #pragma once
 
 #include "sim/engine/engine.h"
@@ -7,15 +9,9 @@
 #include "sim/levels/prepared.h"
 #include "sim/levels/waves/wave_request.h"
 
-namespace hopmesh::levels {
+#include <functional>
 
-/// What an array may be asked beside its bits: a wave, and threads of the engine.
-struct PortRequest {
-  WaveRequest wave;
-  engine::Options engine;
-  bool quiet = false;       ///< no word on what only costs time: a study would say it for each point
-  bool all_threads = false; ///< as many as asked for, even where fewer would be faster
-};
+namespace hopmesh::levels {
 
 enum class Kind {
   reference, ///< the algorithm in double, sweep by sweep
@@ -23,25 +19,47 @@ enum class Kind {
   rival      ///< another integrator of the scene, in double
 };
 
-/// One of several ways in which a level computes the same array.
-struct Way {
-  std::string name;
+/// What an array may be asked beside its bits.
+struct PortRequest {
+  WaveRequest wave;
   engine::Options engine;
+  bool all_threads = false; ///< as many as asked for, even where fewer would be faster
+  bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
+};
+
+/// One of the settings in which a level computes the same bits.
+struct Variant {
+  std::string name = {}; ///< "" for the only one
+  engine::Options engine = {};
   std::uint64_t one_in = 1; ///< takes part in one of so many cases of a campaign
 };
 
+/// A level in one of its variants, as a campaign takes it.
+struct Way {
+  std::string name;
+  /// Makes an array; null where this way cannot have it.
+  std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&)> make;
+  bool made_ahead = false;  ///< all arrays of a process are made before the first is used
+  std::uint64_t one_in = 1; ///< takes part in one of so many cases of a campaign
+};
+
+/// A row of the table.
 struct Level {
   std::string name;
-  Kind kind;
-  const char* words;    ///< for people, in a phrase
-  bool can_resume;      ///< its runs go on from a checkpoint
-  bool can_wave;        ///< its signals can be written to a wave
-  bool checked;         ///< `run` asks the reference beside every step unless told otherwise
-  bool made_ahead;      ///< all its arrays are made before one is used (SystemC elaborates once a process)
-  std::uint64_t one_in; ///< slow: beside others, one of so many cases of a campaign
-  /// Makes its array; null where there is none.
-  std::unique_ptr<ArrayPort> (*make_port)(const spec::ArraySpec&, const spec::Topology&, const PortRequest&);
-  std::vector<Way> (*ways)(); ///< for a campaign; null where there is one way only
+  Kind kind = Kind::array;
+  std::string words{}; ///< for people: what it is, in a phrase
+
+  /// Makes its array; empty where there is none.
+  std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&, const PortRequest&)>
+      make_port = nullptr;
+  /// Makes its motion of a scene; empty where make_port is not: an array moves a scene by the firmware.
+  std::function<std::unique_ptr<Motion>(const Prepared&)> make_motion = nullptr;
+  std::vector<Variant> variants = {{}};
+
+  bool can_wave = false;    ///< its registers can be written to a wave
+  bool checked = true;      ///< `run` asks the reference beside every step, unless told otherwise
+  bool made_ahead = false;  ///< all arrays of a process are made before the first is used
+  std::uint64_t one_in = 1; ///< slow: in one of so many cases of a campaign, and in `compare` when named
 
   bool has_codes() const { return kind == Kind::array; }
   bool has_bus() const { return make_port != nullptr; }
@@ -49,27 +67,33 @@ struct Level {
 
 /// In the order in which people are told of them.
 const std::vector<Level>& levels();
-/// The names of those of some kinds.
-std::vector<std::string> level_names(std::initializer_list<Kind> kinds);
-/// All of them: everything that can fly a scene.
-std::vector<std::string> method_names();
-/// The row of a name. Throws input::InputError where no level, or none of these kinds, has it; `flag` is
-/// where it stood.
-const Level& level_named(const std::string& name, const std::string& flag,
-                         std::initializer_list<Kind> kinds = {Kind::reference, Kind::array, Kind::rival});
-/// The level that runs when nobody names one, and the one that judges it.
+
+using Kinds = std::initializer_list<Kind>;
+inline constexpr Kinds any_kind{Kind::reference, Kind::array, Kind::rival};
+/// What relaxes a network sweep by sweep.
+inline constexpr Kinds sweeping{Kind::reference, Kind::array};
+
+std::vector<std::string> level_names(Kinds kinds = any_kind);
+/// Those that `compare` holds beside each other when nobody says which: what sweeps and is not slow.
+std::vector<std::string> compared_names();
+
+/// The row of a name. Throws input::InputError where no level of these kinds has it; `where` it stood.
+const Level& level_named(const std::string& name, const std::string& where, Kinds kinds = any_kind);
+/// Runs when nobody names a level.
 const Level& default_level();
-const Level& reference_row();
+/// Levels with a bus in all their variants. The first takes part in every case.
+std::vector<Way> ways_of(const std::vector<const Level*>& levels);
 
 /// A level made ready to move a mesh. `array` and `port` are null where the level has no bus.
-struct Ready {
+struct ReadyLevel {
   const Level* level = nullptr;
   std::unique_ptr<ArrayPort> port;
   std::unique_ptr<Motion> motion;
-  ArrayMotion* array = nullptr;
+  ArrayMotion* array = nullptr; ///< is `motion`
 };
 
-/// `check`: ask the reference beside every step, where the level can. `prepared` must outlive it.
-Ready make_ready(const Level& level, const Prepared& prepared, bool check, const PortRequest& request);
+/// `check`: ask the reference beside every step, where the level can. Level and `prepared` must outlive it.
+ReadyLevel make_ready(const Level& level, const Prepared& prepared, bool check = false,
+                      const PortRequest& request = {});
 
 } // namespace hopmesh::levels

@@ -4,6 +4,7 @@
 
 #include "sim/levels/array_port.h"
 #include "sim/levels/built_mesh.h"
+#include "sim/levels/bus_error.h"
 #include "sim/levels/step_state.h"
 
 #include <optional>
@@ -43,12 +44,6 @@ struct StepRow {
 class Diverged : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// The user asked to stop while an array was still relaxing; the step did not happen.
-class Stopped : public std::runtime_error {
- public:
-  Stopped() : std::runtime_error("stopped") {}
 };
 
 class Motion {

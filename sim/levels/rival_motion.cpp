@@ -58,7 +58,11 @@ StepState RivalMotion::state() const {
 }
 
 void RivalMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
-  if (state.position.size() != position_.size()) throw std::logic_error("the state of another mesh");
+  const auto differs = [&](const std::vector<double>& v) { return v.size() != position_.size(); };
+  const bool looks_back = !state.previous_position.empty();
+  if (differs(state.position) || differs(state.velocity) ||
+      (looks_back && (differs(state.previous_position) || differs(state.previous_velocity))))
+    throw std::logic_error("the state of another mesh");
   step_ = state.step;
   const rivals::State now = state_of(state.position, state.velocity);
   const rivals::State before = state_of(state.previous_position, state.previous_velocity);

@@ -22,22 +22,6 @@ SystemcPort::SystemcPort(sc_core::sc_module_name name, const spec::ArraySpec& ar
   if (!wave.file.empty()) wave_.emplace(wave, device_, irq_, waking);
   // A wait may be cut into slices in which nothing happens; that is no news.
   sc_core::sc_report_handler::set_actions(sc_core::SC_ID_NO_SC_START_ACTIVITY_, sc_core::SC_DO_NOTHING);
-
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return static_cast<SystemcPort*>(c)->transfer(tlm::TLM_READ_COMMAND, address, word, 1);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return static_cast<SystemcPort*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address, &word, 1);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SystemcPort*>(c)->transfer(tlm::TLM_READ_COMMAND, address, words, count);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SystemcPort*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address,
-                                                  const_cast<std::uint32_t*>(words), count);
-  };
-  bus_.wait = [](void* c) { return static_cast<SystemcPort*>(c)->wait_for_irq(); };
 }
 
 int SystemcPort::transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words,

@@ -18,7 +18,13 @@ class SystemcPort : public sc_core::sc_module, public ArrayPort {
   SystemcPort(sc_core::sc_module_name name, const spec::ArraySpec& array, const spec::Topology& topology,
               systemc::Waking waking, const WaveRequest& wave, const std::atomic<bool>& stop);
 
-  const hm_bus& bus() override { return bus_; }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override {
+    return transfer(tlm::TLM_READ_COMMAND, address, words, count);
+  }
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override {
+    return transfer(tlm::TLM_WRITE_COMMAND, address, const_cast<std::uint32_t*>(words), count);
+  }
+  int wait_for_irq() override;
   void begin_step(std::uint64_t step) override;
   void end_step(std::uint64_t step) override;
   std::vector<SignalRange> inner_ranges() const override;
@@ -26,7 +32,6 @@ class SystemcPort : public sc_core::sc_module, public ArrayPort {
 
  private:
   int transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words, std::uint32_t count);
-  int wait_for_irq();
   sc_core::sc_time next_slice(sc_core::sc_time began, std::uint64_t cycles_before, bool& wave_changes) const;
   void on_irq();
 
@@ -36,7 +41,6 @@ class SystemcPort : public sc_core::sc_module, public ArrayPort {
   sc_core::sc_time delay_;
   std::optional<Wave> wave_;
   const std::atomic<bool>& stop_;
-  hm_bus bus_{};
 };
 
 } // namespace hopmesh::levels

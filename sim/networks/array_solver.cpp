@@ -32,20 +32,9 @@ std::vector<double> by_cell(const hm_mesh& m, const Vector& all) {
   return values;
 }
 
-std::vector<double> counted(const cosim::Codes& codes, double place) {
-  std::vector<double> values(codes.begin(), codes.end());
-  for (double& value : values) value *= place;
-  return values;
-}
-
 Vector over_all(const levels::BuiltMesh& mesh, const std::vector<double>& by_cell) {
   const auto all = mesh.by_node(by_cell);
   return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
-}
-
-void must(int error) {
-  if (error == HM_ERROR_STOPPED) throw levels::Stopped();
-  if (error != HM_OK) throw std::runtime_error(levels::error_text(error));
 }
 
 class ArraySolver : public solvers::Solver {
@@ -70,51 +59,43 @@ Vector rounded(const Vector& V, double last_place) {
 
 StepArray::StepArray(const solvers::Problem& whole, const levels::Prepared& prepared)
     : whole_(whole), prepared_(prepared),
-      port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(),
-                                              {{}, {}, true, false})),
-      there_(port_->bus(), prepared.mesh->topology()), buffer_(4096) {}
+      port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(), {})),
+      array_(*port_, prepared.mesh->firmware(), prepared.mesh->topology()) {}
 
 // As the firmware loads it, so that no format is interpreted twice.
 void StepArray::load_and_sweep() {
   const hm_mesh& mesh = prepared_.mesh->firmware();
-  must(hm_driver_open(&driver_, &port_->bus(), &mesh, buffer_.data(),
-                      static_cast<std::uint32_t>(buffer_.size())));
-  std::vector<double> weight(hm_weight_count(&mesh)), bias = by_cell(mesh, whole_.I);
+  CellNetwork network{std::vector<double>(hm_weight_count(&mesh)), by_cell(mesh, whole_.I),
+                      by_cell(mesh, whole_.start)};
   each_weight(mesh, [&](std::uint32_t place, std::uint32_t row, std::uint32_t column) {
-    weight[place] = whole_.W.coeff(row, column);
+    network.weight[place] = whole_.W.coeff(row, column);
   });
-  output_ = by_cell(mesh, whole_.start);
-  hm_network network{weight.data(), bias.data(), output_.data()};
-  hm_relaxation end;
-  must(hm_driver_relax(&driver_, &mesh, &network, 0, 1, &end));
-  cycles_ = end.cycles;
+  cycles_ = array_.relax(std::move(network), 0, 1).cycles;
 }
 
-void StepArray::sweep() try {
+void StepArray::sweep() {
   if (prepared_.inputs.array.output == spec::Output::binary)
     throw solvers::Unfit("its outputs are binary, no step towards this answer");
-  if (!driver_.bus) return load_and_sweep();
-  there_.one_sweep();
-  output_ = counted(there_.outputs(), last_place());
-} catch (const cosim::BusFault& fault) {
-  must(fault.error);
+  if (array_.is_loaded())
+    array_.sweep();
+  else
+    load_and_sweep();
 }
 
 Vector StepArray::outputs() const {
   const auto stay = solvers::reached_neurons(whole_);
-  const Vector all = over_all(*prepared_.mesh, output_);
+  const Vector all = over_all(*prepared_.mesh, array_.outputs());
   Vector V(static_cast<Eigen::Index>(stay.size()));
   for (Eigen::Index k = 0; k < V.size(); ++k) V[k] = all[stay[static_cast<std::size_t>(k)]];
   return V;
 }
 
 std::optional<solvers::Problem> StepArray::loaded() const {
-  if (!driver_.bus || prepared_.inputs.array.normaliser == spec::Normaliser::prescaled) return std::nullopt;
-  const double unit = hm_power_of_two(-driver_.shift);
-  const auto place_of = [&](const hm_format& f) { return unit * hm_power_of_two(-hm_fraction_bits(&f)); };
-  const auto weight = counted(there_.weights(), place_of(driver_.weight));
+  if (!array_.is_loaded() || prepared_.inputs.array.normaliser == spec::Normaliser::prescaled)
+    return std::nullopt;
+  const std::vector<double> weight = array_.weights();
   solvers::Problem problem = whole_;
-  problem.I = over_all(*prepared_.mesh, counted(there_.biases(), place_of(driver_.bias)));
+  problem.I = over_all(*prepared_.mesh, array_.biases());
   std::vector<Eigen::Triplet<double>> entries;
   each_weight(prepared_.mesh->firmware(), [&](std::uint32_t place, std::uint32_t row, std::uint32_t column) {
     entries.emplace_back(row, column, weight[place]);

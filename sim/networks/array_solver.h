@@ -2,24 +2,23 @@
 // raw outputs.
 #pragma once
 
-#include "firmware/driver.h"
-#include "sim/cosim/bus_array.h"
 #include "sim/levels/level.h"
+#include "sim/networks/loaded_array.h"
 #include "sim/networks/solvers/race.h"
 
 namespace hopmesh::networks {
 
-/// An array that holds one network. Vectors are numbered as quadratic::reached() does.
+/// An array that holds one network. Vectors are numbered as solvers::reached() does.
 class StepArray {
  public:
-  /// `whole`: the network over all nodes. It and `prepared` must outlive this.
+  /// `whole`: the network over all nodes; like `prepared`, it must outlive this.
   StepArray(const solvers::Problem& whole, const levels::Prepared& prepared);
 
-  /// The first loads weights, biases and the start. Throws study::Stopped where the user stops it, and
-  /// quadratic::Unfit where its outputs are binary.
+  /// The first loads weights, biases and the start. Throws levels::Stopped where the user stops it, and
+  /// solvers::Unfit where its outputs are binary.
   void sweep();
   solvers::Vector outputs() const;
-  double last_place() const { return hm_power_of_two(-hm_fraction_bits(&driver_.state)); }
+  double last_place() const { return array_.last_place(); }
   std::uint64_t cycles_per_sweep() const { return cycles_; }
   /// The network as its memories have it; none where rows were scaled one by one.
   std::optional<solvers::Problem> loaded() const;
@@ -30,14 +29,11 @@ class StepArray {
   const solvers::Problem& whole_;
   const levels::Prepared& prepared_;
   const std::unique_ptr<levels::ArrayPort> port_;
-  const cosim::BusArray there_;
-  hm_driver driver_{};
-  std::vector<std::uint32_t> buffer_;
-  std::vector<double> output_; ///< cell by cell
+  LoadedArray array_;
   std::uint64_t cycles_ = 0;
 };
 
-/// One course of it, on until it stands still; `problem` is what reached() leaves of the array's.
+/// The course of an array, on until it stands still; `problem` is what reached() leaves of the array's.
 solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
                           solvers::Limits limits, const std::atomic<bool>& stop);
 

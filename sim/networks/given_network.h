@@ -23,7 +23,7 @@ struct NetworkData {
   std::vector<double> bias, start; ///< empty: none was named
 };
 
-/// Throws scene::InputError where W is not square, or not symmetric, sizes do not match, a start lies outside
+/// Throws input::InputError where W is not square, or not symmetric, sizes do not match, a start lies outside
 /// the box or the network is larger than an array's windows.
 NetworkData read_network(const NetworkFiles& files);
 

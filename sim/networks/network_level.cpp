@@ -1,8 +1,6 @@
 #include "sim/networks/network_level.h"
 
-#include "firmware/driver.h"
-#include "sim/cosim/bus_array.h"
-#include "sim/levels/array_motion.h"
+#include "sim/networks/loaded_array.h"
 
 namespace hopmesh::networks {
 
@@ -37,46 +35,36 @@ class ReferenceLevel : public NetworkLevel {
   Vector V_;
 };
 
-void must(int error) {
-  if (error == HM_ERROR_STOPPED) throw levels::Stopped();
-  if (error != HM_OK) throw std::runtime_error(levels::error_text(error));
+Vector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::vector<double> values_of(const Vector& vector) {
+  return {vector.data(), vector.data() + vector.size()};
 }
 
 class ArrayLevel : public NetworkLevel {
  public:
   ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, levels::ArrayPort& port)
-      : network_(network), array_(array), port_(port), there_(port.bus(), network.topology()), buffer_(4096),
-        V_(network.start()) {}
+      : network_(network), array_(array), loaded_(port, network.firmware(), network.topology()) {}
 
   Rest relax(double threshold, std::uint32_t max_sweeps) override {
-    if (!driver_.bus)
-      must(hm_driver_open(&driver_, &port_.bus(), &network_.firmware(), buffer_.data(),
-                          static_cast<std::uint32_t>(buffer_.size())));
-    std::vector<double> rows = network_.rows();
-    Vector bias = network_.network().I;
-    V_ = network_.start();
-    hm_network loaded{rows.data(), bias.data(), V_.data()};
-    hm_relaxation end;
-    must(hm_driver_relax(&driver_, &network_.firmware(), &loaded, threshold, max_sweeps, &end));
-    return {end.sweeps, end.converged != 0, end.cycles, driver_.clipped};
+    const hm_relaxation end =
+        loaded_.relax({network_.rows(), values_of(network_.network().I), values_of(network_.start())},
+                      threshold, max_sweeps);
+    V_ = vector_of(loaded_.outputs());
+    return {end.sweeps, end.converged != 0, end.cycles, loaded_.clipped()};
   }
 
   void restart() override {
     V_ = network_.start();
-    cosim::Codes codes(static_cast<std::size_t>(V_.size()));
-    hm_codes(V_.data(), static_cast<std::uint32_t>(codes.size()), 1 / last_place(driver_.state),
-             &driver_.state, reinterpret_cast<std::uint32_t*>(codes.data()));
-    there_.put_outputs(codes);
+    loaded_.put_outputs(values_of(V_));
   }
 
-  double sweep() override try {
-    const spec::Relaxation end = there_.one_sweep();
-    const auto values = counted(there_.outputs(), last_place(driver_.state));
-    V_ = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-    return end.largest_change * last_place(driver_.state);
-  } catch (const cosim::BusFault& fault) {
-    must(fault.error);
-    throw;
+  double sweep() override {
+    const double change = loaded_.sweep();
+    V_ = vector_of(loaded_.outputs());
+    return change;
   }
 
   const Vector& outputs() const override { return V_; }
@@ -84,25 +72,13 @@ class ArrayLevel : public NetworkLevel {
   std::optional<reference::Network> loaded() const override {
     if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)
       return std::nullopt;
-    const double unit = hm_power_of_two(-driver_.shift);
-    return network_.network_of(counted(there_.weights(), unit * last_place(driver_.weight)),
-                               counted(there_.biases(), unit * last_place(driver_.bias)));
+    return network_.network_of(loaded_.weights(), loaded_.biases());
   }
 
  private:
-  static double last_place(const hm_format& format) { return hm_power_of_two(-hm_fraction_bits(&format)); }
-  static std::vector<double> counted(const cosim::Codes& codes, double place) {
-    std::vector<double> values(codes.begin(), codes.end());
-    for (double& value : values) value *= place;
-    return values;
-  }
-
   const GivenNetwork& network_;
   const spec::ArraySpec array_;
-  levels::ArrayPort& port_;
-  const cosim::BusArray there_;
-  hm_driver driver_{};
-  std::vector<std::uint32_t> buffer_;
+  LoadedArray loaded_;
   Vector V_;
 };
 

@@ -1,4 +1,4 @@
-// One step's network as the rivals' solvers take it, and where they start.
+// A step's network as the rivals' solvers take it, and where they start.
 #pragma once
 
 #include "sim/levels/prepared.h"
@@ -14,7 +14,7 @@ struct StepStart {
 };
 
 /// Over all nodes, pinned ones among them. `motion` has just done the step, `before` is what it began from.
-/// Throws scene::InputError where a scene of the probe is to start still.
+/// Throws input::InputError where a scene of the probe is to start still.
 solvers::Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
                               const levels::Prepared& prepared, const StepStart& start);
 

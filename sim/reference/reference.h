@@ -1,5 +1,5 @@
 // The algorithm in double precision with Eigen: the readable definition, written from docs/method/theory.md
-// alone. It shares no arithmetic with the firmware or the array; that they agree is evidence.
+// alone. The reference shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
@@ -111,7 +111,7 @@ struct Step {
   Relaxation relaxation;
 };
 
-/// One whole step of docs/method/theory.md, section 4.
+/// A whole step of docs/method/theory.md, section 4.
 Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

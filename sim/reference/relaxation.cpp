@@ -41,7 +41,7 @@ double sign(double s, double V) {
   return s > 0 ? 1 : s < 0 ? -1 : V;
 }
 
-/// One network, ready to sweep: everything a sweep needs is allocated here.
+/// A network, ready to sweep: everything a sweep needs is allocated here.
 class Sweeper {
  public:
   Sweeper(const Network& network, const Order& order, Vector& V, spec::Output output)
@@ -90,8 +90,9 @@ Relaxation relax(const Network& network, const Order& order, Vector V, double th
   return result;
 }
 
-// How far a step of u = s / N along the negative gradient gets before the box stops it. It is 0 exactly where
-// the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/method/theory.md, section 3).
+// How far a step of u = s / N along the negative gradient gets before the box stops it. That is 0 exactly
+// where the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/method/theory.md,
+// section 3).
 double kkt_violation(const Network& network, const Vector& V) {
   const Vector N = normalisers(network);
   double largest = 0;

@@ -23,7 +23,7 @@ struct Surroundings {
 };
 
 /// Gravity plus wind; the air's drag, and friction, a factor on v each step, as the drag
-/// -ln(friction) / time_step that loses as much. Throws scene::InputError where friction stops every motion
+/// -ln(friction) / time_step that loses as much. Throws input::InputError where friction stops every motion
 /// (0), which no drag does.
 Surroundings surroundings_of(const scene::Scene& scene);
 

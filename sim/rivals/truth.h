@@ -24,7 +24,7 @@ class Walk {
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
 
-  void to(double time);     ///< throws Diverged (method.h) where CVODE gives up
+  void to(double time);     ///< throws Diverged (integrator.h) where CVODE gives up
   void one_internal_step(); ///< as far as CVODE wants to go in one
   Vector positions() const; ///< [3 * nodes] node by node
   std::uint64_t force_passes() const;
@@ -35,7 +35,7 @@ class Walk {
   std::unique_ptr<Solver> solver_;
 };
 
-/// Times ascending from 0. Throws scene::InputError for others and for a tolerance outside 1e-14..1e-3, which
+/// Times ascending from 0. Throws input::InputError for others and for a tolerance outside 1e-14..1e-3, which
 /// SUNDIALS advises against.
 Truth solve(const Physics& physics, const std::vector<double>& times, double rtol = 1e-12);
 

@@ -27,7 +27,7 @@ TrialRow row_of(const run::RunResult& result, double error) {
 int SizeTrials::fly(const Setting& setting) const {
   levels::Prepared p{sizing_.inputs_of(setting), nullptr};
   p.mesh = std::make_unique<levels::BuiltMesh>(p.inputs.scene);
-  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
   const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
   const run::RunResult result = run::simulate(*level.motion, steps, {}, levels::stop_requested);
   if (levels::stop_requested) return child_stopped;

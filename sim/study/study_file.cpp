@@ -4,6 +4,7 @@
 #include "sim/input/key_reader.h"
 #include "sim/input/shipped.h"
 #include "sim/input/whole_file.h"
+#include "sim/levels/level.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -97,8 +98,10 @@ class StudyReader {
 
   void read_methods() {
     const input::TomlValue* found = keys_.value("methods");
-    if (!found) return;
-    study_.methods.clear();
+    if (!found) {
+      study_.methods = {levels::default_level().name};
+      return;
+    }
     study_.methods_line = found->line;
     for (const input::TomlValue& item : list_at(*found, "methods")) {
       if (!item.as<std::string>()) throw source_.error(item, "methods", "names of methods, in quotes");

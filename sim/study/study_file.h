@@ -34,7 +34,7 @@ struct Study {
   std::string name, path, text;
   std::string scene, array;
   std::int64_t steps = 0; ///< 0: the scene's
-  std::vector<std::string> methods{"engine"};
+  std::vector<std::string> methods; ///< where the file names none: the default level
   int methods_line = 0, times_line = 0;
   std::vector<double> times;   ///< s
   std::vector<StudyAxis> axes; ///< in the order of the file

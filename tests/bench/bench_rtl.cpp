@@ -1,6 +1,6 @@
 // How fast the array is at register-transfer level: the Verilog models as Verilator simulates them, beside
-// the native levels that do the same work to the bit and to the cycle. One process, turns at random, like
-// bench_array.
+// the native levels that do the same work to the bit and to the cycle. A single process, turns at random,
+// like bench_array.
 #include "sim/engine/engine.h"
 #include "tests/bench/flag_network.h"
 #include "tests/bench/verilated_flag.h"

@@ -13,28 +13,12 @@ double processor_seconds() {
 }
 
 FlagSteps::FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut)
-    : mesh_(mesh), dut_(dut), motion_(levels::motion_of(scene)), buffer_(4096) {
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_READ_COMMAND, address, word, 1);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address, &word, 1);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_READ_COMMAND, address, words, count);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return static_cast<FlagSteps*>(c)->transfer(tlm::TLM_WRITE_COMMAND, address,
-                                                const_cast<std::uint32_t*>(words), count);
-  };
-  bus_.wait = [](void* c) { return static_cast<FlagSteps*>(c)->wait(); };
-}
+    : mesh_(mesh), dut_(dut), motion_(levels::motion_of(scene)), buffer_(4096) {}
 
 void FlagSteps::begin() {
   memory_.emplace(mesh_);
   sweeps_ = cycles_ = 0;
-  if (hm_driver_open(&driver_, &bus_, &mesh_.firmware(), buffer_.data(),
+  if (hm_driver_open(&driver_, &bus(), &mesh_.firmware(), buffer_.data(),
                      static_cast<std::uint32_t>(buffer_.size())) != HM_OK)
     throw std::runtime_error("the driver refuses the device");
   seconds_ = {};
@@ -73,7 +57,7 @@ int FlagSteps::transfer(tlm::tlm_command command, std::uint32_t address, std::ui
   return response == tlm::TLM_OK_RESPONSE ? HM_OK : HM_ERROR_BUS;
 }
 
-int FlagSteps::wait() {
+int FlagSteps::wait_for_irq() {
   const double began = processor_seconds();
   dut_.run_until_done();
   seconds_.array += processor_seconds() - began;

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "firmware/driver.h"
-#include "sim/scene/scene_file.h"
+#include "firmware/host_bus.h"
 #include "sim/levels/step_memory.h"
+#include "sim/scene/scene_file.h"
 #include "tests/support/dut.h"
 
 #include <optional>
@@ -20,11 +21,9 @@ struct PartSeconds {
 };
 
 /// The way of the data without study and record: integrator, driver, bus, device.
-class FlagSteps {
+class FlagSteps : private HostBus {
  public:
   FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut);
-  FlagSteps(const FlagSteps&) = delete;
-  FlagSteps& operator=(const FlagSteps&) = delete;
 
   /// Steps from rest, from the scene's start on.
   void begin();
@@ -36,15 +35,20 @@ class FlagSteps {
   std::uint64_t cycles() const { return cycles_; }
 
  private:
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override {
+    return transfer(tlm::TLM_READ_COMMAND, address, words, count);
+  }
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override {
+    return transfer(tlm::TLM_WRITE_COMMAND, address, const_cast<std::uint32_t*>(words), count);
+  }
+  int wait_for_irq() override;
   int transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words, std::uint32_t count);
-  int wait();
   static int relax(void* self, const hm_mesh* mesh, hm_network* network, double threshold,
                    std::uint32_t max_sweeps, hm_relaxation* result);
 
   const levels::BuiltMesh& mesh_;
   tests::Dut& dut_;
   const hm_motion motion_;
-  hm_bus bus_{};
   hm_driver driver_{};
   std::optional<levels::StepMemory> memory_; ///< anew at every begin()
   std::vector<std::uint32_t> buffer_;

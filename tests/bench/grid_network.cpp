@@ -1,26 +1,11 @@
 #include "tests/bench/grid_network.h"
 
-#include "firmware/registers.h"
-#include "sim/engine/device.h"
-#include "sim/levels/array_motion.h"
+#include "sim/levels/bus_array.h"
+#include "sim/levels/level.h"
 
 namespace hopmesh::bench {
 
 namespace {
-
-struct Port : levels::ArrayPort {
-  Port(const spec::ArraySpec& array, const spec::Topology& topology, const std::atomic<bool>& stop)
-      : device(array, topology, {}, stop) {}
-  const hm_bus& bus() override { return device.bus(); }
-  engine::Device device;
-};
-
-std::vector<std::int32_t> window(const hm_bus& bus, std::uint32_t base, std::size_t count) {
-  std::vector<std::int32_t> codes(count);
-  bus.read_burst(bus.context, base, reinterpret_cast<std::uint32_t*>(codes.data()),
-                 static_cast<std::uint32_t>(count));
-  return codes;
-}
 
 const std::uint32_t* words(const std::vector<std::int32_t>& codes) {
   return reinterpret_cast<const std::uint32_t*>(codes.data());
@@ -36,15 +21,11 @@ void GridNetwork::load(engine::Engine& e) const {
 
 GridNetwork scene_network(const std::string& scene, int step, const std::string& array,
                           const std::vector<std::string>& overrides) {
-  static const std::atomic<bool> never{false};
-  const scene::Inputs inputs = scene::read_inputs(scene, array, overrides);
-  const levels::BuiltMesh mesh(inputs.scene);
-  Port port(inputs.array, mesh.topology(), never);
-  levels::ArrayMotion motion(inputs.scene, mesh, inputs.array, port, false);
-  for (int k = 0; k <= step; ++k) motion.advance();
-  const hm_bus& bus = port.bus();
-  return {inputs.array, mesh.topology(), window(bus, HM_WINDOW_WEIGHT, mesh.topology().weight_words()),
-          window(bus, HM_WINDOW_BIAS, mesh.topology().neurons()), motion.start_raw()};
+  const levels::Prepared p = levels::prepare(scene, array, overrides);
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
+  for (int k = 0; k <= step; ++k) level.motion->advance();
+  const levels::BusArray loaded(level.port->bus(), p.mesh->topology());
+  return {p.inputs.array, p.mesh->topology(), loaded.weights(), loaded.biases(), level.array->start_raw()};
 }
 
 GridNetwork grid_network(std::size_t rows, std::size_t columns, int step, const std::string& array,

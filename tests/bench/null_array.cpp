@@ -15,29 +15,28 @@ NullArray::NullArray(const spec::ArraySpec& array, const spec::Topology& topolog
   const std::size_t phases = spec::phases_of(topology, array.schedule).size();
   for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
     registers_[offset] = word;
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    *word = static_cast<NullArray*>(c)->read_register(address);
-    return static_cast<int>(HM_OK);
-  };
-  bus_.write = [](void*, std::uint32_t, std::uint32_t) { return static_cast<int>(HM_OK); };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    auto* me = static_cast<NullArray*>(c);
-    std::memcpy(words, me->window(address), 4 * std::size_t{count});
-    if (me->outputs_left_ > 0 && (me->outputs_left_ -= count) == 0) me->lap(me->seconds.read_back);
-    return static_cast<int>(HM_OK);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    std::memcpy(static_cast<NullArray*>(c)->window(address), words, 4 * std::size_t{count});
-    return static_cast<int>(HM_OK);
-  };
-  bus_.wait = [](void* c) {
-    auto* me = static_cast<NullArray*>(c);
-    me->lap(me->seconds.load);
-    me->loading_ = false;
-    me->outputs_left_ = static_cast<std::uint32_t>(me->output_.size());
-    return static_cast<int>(HM_OK);
-  };
+}
+
+int NullArray::read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
+  if (address < HM_WINDOW_FIRST_LINK) {
+    *words = read_register(address);
+    return HM_OK;
+  }
+  std::memcpy(words, window(address), 4 * std::size_t{count});
+  if (outputs_left_ > 0 && (outputs_left_ -= count) == 0) lap(seconds.read_back);
+  return HM_OK;
+}
+
+int NullArray::write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+  if (address >= HM_WINDOW_FIRST_LINK) std::memcpy(window(address), words, 4 * std::size_t{count});
+  return HM_OK;
+}
+
+int NullArray::wait_for_irq() {
+  lap(seconds.load);
+  loading_ = false;
+  outputs_left_ = static_cast<std::uint32_t>(output_.size());
+  return HM_OK;
 }
 
 // The links are the topology's own; whoever only reads is not told otherwise by the type.

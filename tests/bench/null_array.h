@@ -20,10 +20,10 @@ struct HostSeconds {
 class NullArray : public levels::ArrayPort {
  public:
   NullArray(const spec::ArraySpec& array, const spec::Topology& topology);
-  NullArray(const NullArray&) = delete;
-  NullArray& operator=(const NullArray&) = delete;
 
-  const hm_bus& bus() override { return bus_; }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override;
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override;
+  int wait_for_irq() override;
   void begin_step(std::uint64_t) override { mark_ = Clock::now(); }
   void end_step(std::uint64_t) override { lap(seconds.motion); }
 
@@ -42,7 +42,6 @@ class NullArray : public levels::ArrayPort {
   std::uint32_t outputs_left_ = 0; ///< words of the read-back still to come
   bool loading_ = false;
   Clock::time_point mark_;
-  hm_bus bus_{};
 };
 
 } // namespace hopmesh::bench

@@ -1,6 +1,7 @@
 // The default array as one writes it first in SystemC: sc_fixed for every number, a signal for every value
 // that leaves a module, a clocked method for every neuron. Benchmarks measure the production array against
-// it. It shares rtl_model/spec with that array and no arithmetic, so it is one more witness of the same bits.
+// it. This model shares rtl_model/spec with that array and no arithmetic, so it is one more witness of the
+// same bits.
 #pragma once
 
 #ifndef SC_INCLUDE_FX

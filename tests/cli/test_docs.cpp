@@ -1,6 +1,6 @@
 // Pages of docs/use/ against the program (scene files, array files, the results folder, networks of one's
 // own): keys, defaults, presets, files, columns, flags.
-#include "tests/cli/cli_test.h"
+#include "tests/support/cli_test.h"
 
 #include "place.h"
 

@@ -1,5 +1,6 @@
 // --help, --version, and the promise that every example in a help text runs.
-#include "tests/cli/cli_test.h"
+#include "sim/levels/level.h"
+#include "tests/support/cli_test.h"
 
 #include <regex>
 
@@ -28,9 +29,9 @@ class CliHelp : public Cli {
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb :
-       {"run", "compare", "network", "solvers", "info", "vectors", "fuzz", "sweep", "chart", "stability",
-        "solve", "problem", "budget", "size", "scenes", "presets", "studies", "problems", "help"})
+  for (const char* verb : {"run",    "compare", "network",   "solvers", "info",     "vectors", "fuzz",
+                           "sweep",  "chart",   "stability", "solve",   "problem",  "budget",  "size",
+                           "scenes", "presets", "levels",    "studies", "problems", "help"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
 }
 
@@ -60,6 +61,7 @@ TEST_F(CliHelp, ListsNameWhatThereIs) {
   };
   EXPECT_THAT(names_in_list("scenes"), ::testing::IsSupersetOf({"flag-400", "banner", "two-nodes"}));
   EXPECT_THAT(names_in_list("presets"), ::testing::ElementsAre("guarded", "descent", "prescaled", "byte"));
+  EXPECT_EQ(names_in_list("levels"), levels::level_names());
   EXPECT_THAT(names_in_list("studies"), ::testing::IsSupersetOf({"first-widths", "banner-bits"}));
   EXPECT_THAT(names_in_list("problems"), ::testing::IsSupersetOf({"queens-8", "box-random-100"}));
   for (const std::string& scene : names_in_list("scenes"))

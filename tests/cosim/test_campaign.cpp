@@ -15,44 +15,44 @@ namespace {
 using namespace cosim;
 using ::testing::HasSubstr;
 
-SharedBus soft(const ArrayJob& job, std::optional<Fault> fault = {}) {
-  const auto port = std::make_shared<SoftArray>(job.array, job.topology, fault);
-  return {port, &port->bus()};
+std::unique_ptr<levels::ArrayPort> soft(const spec::ArraySpec& array, const spec::Topology& topology,
+                                        std::optional<Fault> fault = {}) {
+  return std::make_unique<SoftArray>(array, topology, fault);
 }
 
-Contestant healthy() {
-  return {"healthy", [](const ArrayJob& job) { return soft(job); }};
+Way healthy() {
+  return {"healthy", [](const auto& array, const auto& topology) { return soft(array, topology); }};
 }
 
 // A bit of the first cell with two links flips in the second sweep.
-Contestant faulty() {
-  return {"faulty", [](const ArrayJob& job) {
-            for (std::uint32_t c = 0; c < job.topology.cells(); ++c)
-              if (job.topology.degree(c) >= 2)
-                return soft(job, Fault{2, c * static_cast<std::uint32_t>(job.topology.neurons_per_cell)});
-            return soft(job);
-          }};
+Way faulty() {
+  return {
+      "faulty", [](const auto& array, const auto& topology) {
+        for (std::uint32_t c = 0; c < topology.cells(); ++c)
+          if (topology.degree(c) >= 2)
+            return soft(array, topology, Fault{2, c * static_cast<std::uint32_t>(topology.neurons_per_cell)});
+        return soft(array, topology);
+      }};
 }
 
-Contestant crashing() {
-  return {"crashing", [](const ArrayJob& job) {
-            if (job.topology.cells() >= 5) std::raise(SIGKILL);
-            return soft(job);
+Way crashing() {
+  return {"crashing", [](const auto& array, const auto& topology) {
+            if (topology.cells() >= 5) std::raise(SIGKILL);
+            return soft(array, topology);
           }};
 }
 
 class CampaignTest : public ::testing::Test {
  protected:
-  CampaignResult run(const std::vector<Contestant>& contestants, std::uint64_t cases,
-                     std::size_t children = 1) {
+  CampaignResult run(const Ways& ways, std::uint64_t cases, std::size_t children = 1) {
     CampaignPlan plan;
     plan.seed = 3, plan.cases = cases, plan.children = children;
     return run_campaign(
-        contestants, plan, [this](std::uint64_t done) { told = done; }, stop);
+        ways, plan, [this](std::uint64_t done) { told = done; }, stop);
   }
-  ArrayJob shrunk(const std::vector<Contestant>& contestants, const Finding& finding) {
+  ArrayJob shrunk(const Ways& ways, const Finding& finding) {
     return shrink(campaign_case(3, finding.number).job,
-                  [&](const ArrayJob& job) { return differs_in_child(contestants, job); });
+                  [&](const ArrayJob& job) { return differs_in_child(ways, job); });
   }
   std::atomic<bool> stop{false};
   std::uint64_t told = 0;
@@ -76,10 +76,10 @@ TEST_F(CampaignTest, ACaseIsAFunctionOfSeedAndNumber) {
 }
 
 TEST_F(CampaignTest, AFaultIsFoundShrunkAndWrittenSoThatItShowsAgain) {
-  const std::vector<Contestant> all{healthy(), healthy(), faulty()};
+  const Ways all{healthy(), healthy(), faulty()};
   const CampaignResult r = run(all, 300);
   ASSERT_TRUE(r.finding);
-  EXPECT_EQ(r.finding->contestant, 2u);
+  EXPECT_EQ(r.finding->way, 2u);
   EXPECT_THAT(r.finding->text, HasSubstr("healthy and faulty: "));
   const auto two = involved(all, *r.finding);
   ASSERT_EQ(two.size(), 2u);
@@ -97,19 +97,19 @@ TEST_F(CampaignTest, AFaultIsFoundShrunkAndWrittenSoThatItShowsAgain) {
   ASSERT_TRUE(reader.next(again));
   EXPECT_TRUE(differs_in_child(two, again.job));
   std::uint64_t lines = 0;
-  EXPECT_EQ(check_answers("f", reader, again, *soft(small), lines), "");
+  EXPECT_EQ(check_answers("f", reader, again, soft(small.array, small.topology)->bus(), lines), "");
   VectorReader second(file.string());
   second.next(again);
-  EXPECT_THAT(check_answers("f", second, again, *faulty().make(small), lines),
+  EXPECT_THAT(check_answers("f", second, again, faulty().make(small.array, small.topology)->bus(), lines),
               HasSubstr("case found, sweep 2"));
   std::filesystem::remove_all(file.parent_path());
 }
 
 TEST_F(CampaignTest, ACrashNamesItsCaseAndShrinksToo) {
-  const std::vector<Contestant> all{healthy(), crashing()};
+  const Ways all{healthy(), crashing()};
   const CampaignResult r = run(all, 100);
   ASSERT_TRUE(r.finding);
-  EXPECT_EQ(r.finding->contestant, 0u);
+  EXPECT_EQ(r.finding->way, 0u);
   EXPECT_THAT(r.finding->text, HasSubstr("killed by signal 9"));
   EXPECT_GE(campaign_case(3, r.finding->number).job.topology.cells(), 5u);
   for (std::uint64_t k = 0; k < r.finding->number; ++k)
@@ -128,15 +128,15 @@ TEST_F(CampaignTest, ACrashNamesItsCaseAndShrinksToo) {
 }
 
 TEST_F(CampaignTest, AFaultOfTheBusIsAFindingInWords) {
-  Contestant refusing{"refusing", [](const ArrayJob& job) {
-                        const auto port = std::make_shared<SoftArray>(job.array, job.topology);
-                        port->refuse = true;
-                        return SharedBus(port, &port->bus());
-                      }};
+  const Way refusing{"refusing", [](const auto& array, const auto& topology) {
+                       auto port = std::make_unique<SoftArray>(array, topology);
+                       port->refuse = true;
+                       return port;
+                     }};
   const CampaignResult r = run({healthy(), refusing}, 10);
   ASSERT_TRUE(r.finding);
   EXPECT_EQ(r.finding->number, 0u);
-  EXPECT_THAT(r.finding->text, HasSubstr("the array's bus answered with error -1"));
+  EXPECT_THAT(r.finding->text, HasSubstr("the bus refused a transfer"));
 }
 
 TEST_F(CampaignTest, StopsWhenAskedAndSaysWhereToGoOn) {

@@ -1,6 +1,5 @@
 // Levels beside each other, one of them with a fault to order.
 #include "sim/cosim/compare.h"
-#include "sim/levels/reference_motion.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -17,29 +16,34 @@ using ::testing::Not;
 
 class Compare : public ::testing::Test {
  protected:
-  void add_reference() {
-    reference.emplace(scene, mesh, array);
-    contenders.push_back({"reference", &*reference, nullptr, nullptr});
-  }
+  void add_reference() { add(levels::level_named("reference", "")); }
   void add_array(const std::string& name, std::optional<Fault> fault = {}) {
-    SoftArray& port = ports.emplace_back(array, mesh.topology(), fault);
-    levels::ArrayMotion& motion = motions.emplace_back(scene, mesh, array, port, reference.has_value());
-    contenders.push_back({name, &motion, &motion, &port});
+    levels::Level level{name};
+    level.can_wave = true;
+    level.make_port = [this, fault](const auto& its_array, const auto& topology, const auto&) {
+      auto port = std::make_unique<SoftArray>(its_array, topology, fault);
+      ports.push_back(port.get());
+      return port;
+    };
+    add(rows.emplace_back(level));
+  }
+  void add(const levels::Level& level) {
+    prepared.inputs = {scene, array};
+    ready.push_back(levels::make_ready(level, prepared, !ready.empty() && !ready[0].array));
   }
   cosim::Comparison run(std::uint64_t steps) {
     return cosim::compare(
-        contenders, mesh, array, steps, [this](const levels::StepRow& row) { seen.push_back(row.step); },
+        ready, *prepared.mesh, array, steps, [this](const levels::StepRow& row) { seen.push_back(row.step); },
         stop);
   }
   std::string text(const cosim::Comparison& c) const { return cosim::text_of(c, "grid", array); }
 
   scene::Scene scene = grid_scene(2, 3);
   spec::ArraySpec array = *spec::preset("descent");
-  levels::BuiltMesh mesh{scene};
-  std::optional<levels::ReferenceMotion> reference;
-  std::deque<SoftArray> ports;
-  std::deque<levels::ArrayMotion> motions;
-  std::vector<cosim::Contender> contenders;
+  levels::Prepared prepared{{scene, array}, std::make_unique<levels::BuiltMesh>(scene)};
+  std::deque<levels::Level> rows;
+  std::vector<SoftArray*> ports;
+  std::vector<levels::ReadyLevel> ready;
   std::vector<std::uint64_t> seen;
   std::atomic<bool> stop{false};
 };
@@ -78,7 +82,7 @@ TEST_F(Compare, StopsAtTheFirstDifferenceAndExplainsIt) {
   EXPECT_THAT(text(c), HasSubstr("sweep 5, cycle "));
   EXPECT_THAT(text(c), HasSubstr("node 4, neuron 1: V "));
   EXPECT_THAT(text(c),
-              HasSubstr("hopmesh run grid --level systemc --no-check --steps 2 --out out/difference --wave "
+              HasSubstr("hopmesh run grid --level bad --no-check --steps 2 --out out/difference --wave "
                         "difference.vcd --wave-window "));
   const std::uint64_t at = c.difference->cycles_before + c.difference->where->cycle, sweep = 361;
   EXPECT_EQ(c.difference->cycles_before, c.levels[0].cycles - c.difference->cycles[0]);
@@ -96,7 +100,7 @@ TEST_F(Compare, AFaultThatHealsBeforeRestIsFound) {
   ASSERT_TRUE(c.difference->where);
   EXPECT_EQ(c.difference->where->sweep, 2u);
   EXPECT_EQ(c.difference->where->node, 4u);
-  EXPECT_EQ(motions[0].rest_raw(), motions[1].rest_raw()); // at rest nothing is left of it
+  EXPECT_EQ(ready[0].array->rest_raw(), ready[1].array->rest_raw()); // at rest nothing is left of it
   EXPECT_EQ(c.difference->sweeps[0], c.difference->sweeps[1]);
 }
 
@@ -121,7 +125,7 @@ TEST_F(Compare, OfSeveralExpansionsTheLastIsRunInLockstep) {
 TEST_F(Compare, AnInterruptInTheLockstepEndsIt) {
   add_array("one"), add_array("two");
   const auto c = cosim::compare(
-      contenders, mesh, array, 5, [this](const levels::StepRow&) { ports[1].stop = true; }, stop);
+      ready, *prepared.mesh, array, 5, [this](const levels::StepRow&) { ports[1]->stop = true; }, stop);
   EXPECT_EQ(c.outcome, Outcome::interrupted);
 }
 
@@ -174,7 +178,7 @@ TEST_F(Compare, StopsWhenAsked) {
 
 TEST_F(Compare, AnInterruptedLevelEndsIt) {
   add_array("one"), add_array("two");
-  ports[1].stop = true;
+  ports[1]->stop = true;
   const auto c = run(5);
   EXPECT_EQ(c.outcome, Outcome::interrupted);
   EXPECT_EQ(c.steps, 0u);

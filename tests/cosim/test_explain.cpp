@@ -21,7 +21,7 @@ class Explain : public ::testing::Test {
   std::optional<cosim::FirstDifference> difference(SoftArray& a, SoftArray& b, std::uint32_t max_sweeps) {
     const ArrayJob job = network(max_sweeps);
     for (SoftArray* each : {&a, &b}) {
-      cosim::BusArray(each->bus(), job.topology).load(job);
+      cosim::load(cosim::BusArray(each->bus(), job.topology), job);
       each->forget_loads();
     }
     return cosim::first_difference({&a.bus(), &b.bus()}, mesh, job, max_sweeps);
@@ -141,7 +141,7 @@ TEST_F(Explain, ALoadedJobReadsTheWindowsBack) {
   SoftArray port(array, mesh.topology());
   const ArrayJob wanted = network(17);
   const cosim::BusArray there(port.bus(), wanted.topology);
-  there.load(wanted);
+  cosim::load(there, wanted);
   there.write(HM_REG_THRESHOLD, 5);
   there.write(HM_REG_MAX_SWEEPS, 17);
   const ArrayJob found = cosim::loaded_job(port.bus(), array, mesh.topology(), wanted.start);

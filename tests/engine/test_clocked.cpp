@@ -43,7 +43,7 @@ void expect_registers(const ClockedEngine& e, const systemc::CellularArray& cell
   }
 }
 
-/// One run, clock by clock beside each other; returns how many clocks it took.
+/// A run, clock by clock beside each other; returns how many clocks it took.
 std::uint64_t expect_run_clock_by_clock(ClockedEngine& e, Dut& dut, const ArrayJob& job) {
   dut.write(HM_REG_IRQ_STATUS, ~0u);
   dut.start(job.threshold, job.max_sweeps);
@@ -61,7 +61,7 @@ std::uint64_t expect_run_clock_by_clock(ClockedEngine& e, Dut& dut, const ArrayJ
   return clock;
 }
 
-/// The same run by the engine, and by the clocked one in strides.
+/// A run by the engine, and by the clocked one in strides.
 void expect_end(const ClockedEngine& e, const ArrayJob& job, const std::vector<std::int32_t>& start,
                 Dice& dice) {
   engine::Engine fast(job.array, job.topology, {1, "auto", 1});

@@ -58,7 +58,7 @@ class Lockstep {
   std::string text() const { return describe(ArrayJob{array_, topology_, {}, {}, {}, 0, 0}); }
 
  private:
-  const hm_bus& left() { return *dut_bus_.bus(); }
+  const hm_bus& left() { return dut_bus_.bus(); }
   const hm_bus& right() { return device_.bus(); }
 
   void answer(int systemc, int engine, const char* what, std::uint32_t address, std::size_t count) {

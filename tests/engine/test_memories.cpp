@@ -10,7 +10,7 @@ namespace {
 using engine::Engine;
 using Words = std::vector<std::uint32_t>;
 
-/// One of the three memories, as a host sees it.
+/// A memory, one of three, as a host sees it.
 struct Memory {
   const char* name;
   void (Engine::*write)(std::size_t, const std::uint32_t*, std::size_t);

@@ -1,20 +1,22 @@
 // Base64 against RFC 4648's own examples, and against a decoder that knows only the alphabet.
 #include "sim/files/base64.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
 
+using namespace files;
+
 template <class Fill> std::string written(Fill fill) {
-  const tests::Folder folder;
+  const Folder folder;
   OutputFile file(folder / "digits.txt");
   Base64Writer writer(file);
   fill(writer);
   writer.end();
   file.commit();
-  return tests::content_of(folder / "digits.txt");
+  return content_of(folder / "digits.txt");
 }
 
 std::string encoded(const std::string& text) {
@@ -68,4 +70,4 @@ TEST(Base64, PiecesAreOneText) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

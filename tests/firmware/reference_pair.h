@@ -1,4 +1,4 @@
-// One random mesh as the firmware and as the reference see it, for tests that compare what they make of it.
+// A random mesh as the firmware and as the reference see it, for tests that compare what they make of it.
 #pragma once
 
 #include "sim/reference/reference.h"

@@ -1,28 +1,27 @@
 // The firmware asks nothing of its platform but sqrt and the memory functions that every compiler may call;
 // it has no heap and no state of its own.
+#include "tests/support/files.h"
+#include "tests/support/program.h"
+
 #include "place.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <set>
 #include <sstream>
-#include <string>
 
+namespace hopmesh::tests {
 namespace {
 
 /// Lines of `nm ARGUMENTS` on the firmware's archive, as (type, symbol).
 std::set<std::pair<std::string, std::string>> symbols(const std::string& arguments) {
   std::set<std::pair<std::string, std::string>> found;
-  FILE* pipe = popen(("nm -P " + arguments + " " HOPMESH_FIRMWARE_LIBRARY).c_str(), "r");
-  if (pipe == nullptr) return found;
-  char line[1024];
-  while (std::fgets(line, sizeof line, pipe)) {
+  for (const std::string& line :
+       lines_of(run_shell("nm -P " + arguments + " " HOPMESH_FIRMWARE_LIBRARY).out)) {
     std::istringstream words(line);
     std::string symbol, type;
     if (words >> symbol >> type && type.size() == 1) found.insert({type, symbol});
   }
-  pclose(pipe);
   return found;
 }
 
@@ -49,3 +48,4 @@ TEST(Freestanding, HasNoStateOfItsOwn) {
 }
 
 } // namespace
+} // namespace hopmesh::tests

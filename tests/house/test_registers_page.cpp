@@ -1,6 +1,6 @@
 // docs/hardware/registers.md shows the register table as it is.
 #include "firmware/registers.h"
-#include "tests/house/register_tables.h"
+#include "tests/house/printed_registers.h"
 #include "tests/house/tree.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 void add_mesh(RunView& view, std::size_t side) {
   const auto node = [side](std::size_t r, std::size_t c) { return static_cast<std::uint32_t>(r * side + c); };
@@ -86,4 +88,4 @@ RunView sample_run(std::size_t side, std::size_t frames, std::size_t steps) {
   return view;
 }
 
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

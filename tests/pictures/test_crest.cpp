@@ -6,8 +6,10 @@
 #include <png.h>
 #include <set>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 files::Picture decoded(std::string_view file) {
   png_image image{};
@@ -55,4 +57,4 @@ TEST(Crest, SmallSizesWork) {
 }
 
 } // namespace
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

@@ -2,24 +2,23 @@
 #include "sim/pictures/mesh_picture.h"
 
 #include "sim/pictures/mesh_bitmap.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <cmath>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <iterator>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string drawn(const RunView& view) {
-  const tests::Folder folder;
+  const Folder folder;
   write_mesh_picture(view, folder / "picture.svg");
-  std::ifstream file(folder / "picture.svg");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return content_of(folder / "picture.svg");
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -28,7 +27,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// One pinned node, one that comes down from 1 beside it to 4 under it.
+/// A pinned node, and one that comes down from 1 beside it to 4 under it.
 RunView pendulum() {
   RunView view;
   view.title = "a < b";
@@ -164,4 +163,4 @@ TEST(MeshPicture, AMillionNodesMakeASmallFile) {
 }
 
 } // namespace
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 struct Case {
   scene::Mesh mesh;
@@ -245,4 +247,4 @@ TEST(ReferenceIncremental, RestWithoutForceStays) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 TEST(ReferenceRelaxation, OneNeuronFollowsTheRuleByHand) {
   // W = -1/2, I = 1/2, N = 1. V = 0: u = 1/2, R = 1 -> 1/2; u = 1/4, R = 1/2 -> 5/8; u = 3/16, R = 3/8 ->
@@ -102,4 +104,4 @@ TEST(ReferenceRelaxation, KktViolationByHand) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

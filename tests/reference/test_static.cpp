@@ -6,8 +6,10 @@
 #include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 Eigen::Index nodes_of(const scene::Mesh& mesh) {
   return static_cast<Eigen::Index>(mesh.nodes());
@@ -140,4 +142,4 @@ TEST(ReferenceStatic, TheNetworkHasTheSlopeOfThePotential) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

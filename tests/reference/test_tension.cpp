@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 /// A tree in the plane y = 0: its terminals first.
 scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t terminals,
@@ -102,4 +104,4 @@ TEST(ReferenceTension, TheTreesOfASquareAndOfALadderAreTheShortest) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

@@ -1,9 +1,9 @@
 // A motion that is given its state back, and a run that goes on from its folder, equal the unbroken one.
-#include "sim/levels/array_motion.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/level.h"
 #include "sim/run/checkpointer.h"
 #include "sim/run/step_table.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -22,26 +22,22 @@ scene::Scene short_scene() {
   return scene;
 }
 
-/// A software array's or the reference's motion of the scene, as a run has it.
+/// A level's motion of the scene, as a run has it.
 struct Rig {
-  explicit Rig(bool fixed) : mesh(short_scene()), port(fine_array(), mesh.topology()) {
-    if (fixed)
-      motion = std::make_unique<levels::ArrayMotion>(short_scene(), mesh, fine_array(), port, true);
-    else
-      motion = std::make_unique<levels::ReferenceMotion>(short_scene(), mesh, fine_array());
-    facts = {{short_scene(), fine_array()},
-             &levels::level_named(fixed ? "engine" : "reference", ""),
-             "hopmesh run grid",
-             0,
-             fixed};
+  explicit Rig(const std::string& name) : Rig(levels::level_named(name, "")) {}
+  explicit Rig(const levels::Level& level)
+      : prepared{{short_scene(), fine_array()}, std::make_unique<levels::BuiltMesh>(short_scene())},
+        ready(levels::make_ready(level, prepared, true)), mesh(*prepared.mesh),
+        motion(ready.motion.get()), facts{prepared.inputs, &level, "hopmesh run grid", 0, level.has_codes()} {
   }
-  levels::BuiltMesh mesh;
-  SoftArray port;
-  std::unique_ptr<levels::Motion> motion;
+  levels::Prepared prepared;
+  levels::ReadyLevel ready;
+  const levels::BuiltMesh& mesh;
+  levels::Motion* motion;
   run::RunFacts facts;
 };
 
-class Resume : public ::testing::TestWithParam<bool> {
+class Resume : public ::testing::TestWithParam<const char*> {
  protected:
   /// The first steps of a run, saved after each; then its process is gone.
   void begin(std::uint64_t steps) const {
@@ -64,21 +60,17 @@ class Resume : public ::testing::TestWithParam<bool> {
     if (steps == 6) files.finish(result, *rig.motion);
   }
   std::string refusal() const {
-    try {
-      run::read_run(out);
-    } catch (const input::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { run::read_run(out); });
   }
 
-  const tests::Folder folder;
+  const Folder folder;
   const fs::path out = folder / "r";
   std::atomic<bool> stop{false};
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Bool(),
-                         [](const auto& made) { return made.param ? "Array" : "Reference"; });
+// One of each kind; bdf2 looks two steps back. tests/cli/test_resume.cpp tries every level.
+INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Values("engine", "reference", "bdf2"),
+                         [](const auto& made) { return made.param; });
 
 TEST_P(Resume, AMotionGoesOnFromItsState) {
   Rig unbroken(GetParam()), first(GetParam()), second(GetParam());
@@ -128,7 +120,7 @@ TEST_P(Resume, AnyFolderGoesOnToTheSameFiles) {
 
 TEST_P(Resume, ACheckpointThatAKillCutShortGoesWithTheRun) {
   begin(4);
-  std::ofstream(out / "checkpoint.part") << "half";
+  write_text(out / "checkpoint.part", "half");
   go_on(6);
   for (const auto& entry : fs::directory_iterator(out)) EXPECT_NE(entry.path().extension(), ".part");
 }
@@ -173,10 +165,10 @@ TEST_P(Resume, AStreamThatChangedIsNamedWithItsLineAndNothingIsTouched) {
     const std::string good = content_of(out / name);
     std::string bad = good;
     bad[good.size() - 9] ^= 1;
-    std::ofstream(out / name, std::ios::binary) << bad;
+    write_text(out / name, bad);
     EXPECT_THAT(refusal(), ::testing::ContainsRegex("/checkpoint:[0-9]+: " + std::string(name).substr(0, 9)));
     EXPECT_EQ(content_of(out / name), bad);
-    std::ofstream(out / name, std::ios::binary) << good;
+    write_text(out / name, good);
   }
   EXPECT_EQ(refusal(), "");
 }
@@ -205,10 +197,17 @@ TEST_P(Resume, AnotherSceneIsRefusedByItsMesh) {
 }
 
 TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
-  Rig rig(true), unbroken(true), again(true);
+  SoftArray* port = nullptr;
+  levels::Level soft{"soft"};
+  soft.make_port = [&](const auto& array, const auto& topology, const auto&) {
+    auto made = std::make_unique<SoftArray>(array, topology);
+    port = made.get();
+    return made;
+  };
+  Rig unbroken(soft), again(soft), rig(soft);
   rig.motion->advance();
   unbroken.motion->advance();
-  rig.port.stop = true;
+  port->stop = true;
   EXPECT_THROW(rig.motion->advance(), levels::Stopped);
   const levels::StepState state = rig.motion->state(), wanted = unbroken.motion->state();
   EXPECT_EQ(state.step, 1u);
@@ -218,24 +217,19 @@ TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
 }
 
 TEST(ReadRows, SayWhichLineIsNone) {
-  const tests::Folder folder;
+  const Folder folder;
   std::string header;
   for (const std::string& name : run::step_columns()) header += (header.empty() ? "" : ",") + name;
   const std::string row = "0,0.05,1,2,3,4,5,6,1,7,8,9,,,,,00000000000000ff\n";
   const auto read = [&](const std::string& text) {
-    std::ofstream(folder / "t.csv", std::ios::binary) << text;
+    write_text(folder / "t.csv", text);
     return run::read_rows(folder / "t.csv", text.size());
   };
   EXPECT_EQ(read(header + '\n' + row).at(0).hash, 255u);
   for (const char* bad :
        {"0,0.05,1\n", "x,0.05,1,2,3,4,5,6,1,7,8,9,,,,,ff\n", "0,0,1,2,3,4,5,6,2,7,8,9,,,,,ff\n",
         "0,0,1,2,3,4,5,6,1,7,8,9,,1,,,ff\n", "0,0,1,2,3,4,5,6,1,7,8,9,,,,,ff,1\n"}) {
-    try {
-      read(header + '\n' + row + bad);
-      ADD_FAILURE() << bad;
-    } catch (const input::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("t.csv:3: found "));
-    }
+    EXPECT_THAT(complaint([&] { read(header + '\n' + row + bad); }), HasSubstr("t.csv:3: found "));
   }
 }
 

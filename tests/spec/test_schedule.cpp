@@ -152,7 +152,7 @@ TEST(Topology, RowsFollowEachOtherWithoutGaps) {
 }
 
 TEST(Cycles, OneCellByHand) {
-  // One isolated cell: 3 taps. Divider at 14 fraction bits: 16; output 2. With 3 lanes a phase is 1 + 16 + 2.
+  // An isolated cell: 3 taps. Divider at 14 fraction bits: 16; output 2. With 3 lanes a phase is 1 + 16 + 2.
   const Topology t = topology_of(1, 3, {});
   ArraySpec a;
   a.schedule = Schedule::coloured;

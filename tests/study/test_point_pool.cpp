@@ -6,8 +6,10 @@
 #include <map>
 #include <unistd.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 TEST(PointPool, TellsHowEachChildEnded) {
   const std::atomic<bool> stop{false};
@@ -38,4 +40,4 @@ TEST(PointPool, AStopEndsThemBeforeTheirTime) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests

@@ -17,20 +17,6 @@ SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topolog
   const std::size_t phases = spec::phases_of(topology, array.schedule).size();
   for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
     registers_[offset] = word;
-  bus_.context = this;
-  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
-    return static_cast<SoftArray*>(c)->transfer(address, word, 1, false);
-  };
-  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
-    return static_cast<SoftArray*>(c)->transfer(address, &word, 1, true);
-  };
-  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SoftArray*>(c)->transfer(address, words, count, false);
-  };
-  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-    return static_cast<SoftArray*>(c)->transfer(address, const_cast<std::uint32_t*>(words), count, true);
-  };
-  bus_.wait = [](void* c) -> int { return static_cast<SoftArray*>(c)->stop ? HM_ERROR_STOPPED : HM_OK; };
 }
 
 std::uint32_t* SoftArray::word_at(std::uint32_t address) {

@@ -11,7 +11,7 @@
 
 namespace hopmesh::tests {
 
-/// One output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
+/// An output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
 /// since outputs were last written, over all runs: like any real array, this one has no state in a sweep but
 /// V.
 struct Fault {
@@ -26,10 +26,14 @@ struct Fault {
 class SoftArray : public levels::ArrayPort {
  public:
   SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault = {});
-  SoftArray(const SoftArray&) = delete;
-  SoftArray& operator=(const SoftArray&) = delete;
 
-  const hm_bus& bus() override { return bus_; }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override {
+    return transfer(address, words, count, false);
+  }
+  int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override {
+    return transfer(address, const_cast<std::uint32_t*>(words), count, true);
+  }
+  int wait_for_irq() override { return stop ? HM_ERROR_STOPPED : HM_OK; }
   void begin_step(std::uint64_t step) override { begun.push_back(step); }
   void end_step(std::uint64_t step) override { ended.push_back(step); }
   std::vector<levels::SignalRange> inner_ranges() const override;
@@ -51,7 +55,6 @@ class SoftArray : public levels::ArrayPort {
   std::map<std::uint32_t, std::uint32_t> registers_;
   std::vector<std::uint32_t> first_link_, link_;
   std::uint32_t loads_ = 0, sweeps_ = 0;
-  hm_bus bus_{};
 };
 
 } // namespace hopmesh::tests

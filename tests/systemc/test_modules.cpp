@@ -19,7 +19,7 @@ using systemc::Sequencer;
 
 // ---- InputAccumulator
 
-/// One row on one accumulator: as a whole, beat by beat, and as the bit-serial neuron does it.
+/// A row on one accumulator: as a whole, beat by beat, and as the bit-serial neuron does it.
 void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, std::size_t per_source) {
   const std::size_t taps = sources * per_source;
   const spec::NumberFormat format = spec::accumulator_format(array, taps);

@@ -224,7 +224,7 @@ std::string waking_name(const testing::TestParamInfo<Waking>& param) {
 }
 INSTANTIATE_TEST_SUITE_P(Wake, Ends, testing::Values(Waking::by_phase, Waking::by_clock), waking_name);
 
-/// One cell, cells without links, rows of zeros (N = 0): in every normaliser, both ways of waking.
+/// A single cell, cells without links, rows of zeros (N = 0): in every normaliser, both ways of waking.
 TEST(SmallArrays, EmptyRowsKeepVAndLoneCellsRelax) {
   std::vector<std::unique_ptr<Dut>> duts;
   std::vector<ArrayJob> jobs;

@@ -1,7 +1,6 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
-#include "sim/cosim/contestants.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
@@ -16,9 +15,8 @@ namespace hopmesh::cli {
 
 namespace {
 
-using cosim::Contestant;
+using cosim::Ways;
 using run::grouped;
-using Contestants = std::vector<Contestant>;
 
 struct FuzzOptions {
   std::vector<std::string> levels = levels::level_names({levels::Kind::array});
@@ -30,12 +28,12 @@ struct FuzzOptions {
 };
 
 // In the table's order: the engine's first kernel takes any array, and leads where it takes part.
-Contestants contestants_of(const FuzzOptions& o) {
+Ways ways_asked_for(const FuzzOptions& o) {
   for (const std::string& level : o.levels) levels::level_named(level, "--levels", {levels::Kind::array});
   std::vector<const levels::Level*> rows;
   for (const levels::Level& level : levels::levels())
     if (std::count(o.levels.begin(), o.levels.end(), level.name)) rows.push_back(&level);
-  Contestants all = cosim::contestants_of(rows);
+  Ways all = levels::ways_of(rows);
   if (all.size() < 2)
     throw input::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
   return all;
@@ -52,9 +50,9 @@ std::string command_of(const FuzzOptions& o, std::uint64_t first) {
 }
 
 // Small enough to be read, in a file that shows it again.
-int tell(const FuzzOptions& o, const Contestants& all, const cosim::Finding& finding) {
+int tell(const FuzzOptions& o, const Ways& all, const cosim::Finding& finding) {
   fmt::print("case {} of seed {}: {}\n", finding.number, o.seed, finding.text);
-  const Contestants two = cosim::involved(all, finding);
+  const Ways two = cosim::involved(all, finding);
   const cosim::ArrayJob whole = cosim::campaign_case(o.seed, finding.number).job;
   run::CountProgress progress("smaller cases tried", 0);
   std::uint64_t tried = 0;
@@ -74,7 +72,7 @@ int tell(const FuzzOptions& o, const Contestants& all, const cosim::Finding& fin
   return differs;
 }
 
-int campaign(const FuzzOptions& o, const Contestants& all) {
+int campaign(const FuzzOptions& o, const Ways& all) {
   cosim::CampaignPlan plan;
   plan.seed = o.seed, plan.first = o.first, plan.children = static_cast<std::size_t>(o.children);
   if (o.cases > 0) plan.cases = static_cast<std::uint64_t>(o.cases);
@@ -96,7 +94,7 @@ int campaign(const FuzzOptions& o, const Contestants& all) {
   return interrupted;
 }
 
-int replay(const FuzzOptions& o, const Contestants& all) {
+int replay(const FuzzOptions& o, const Ways& all) {
   cosim::VectorReader reader(o.replay);
   cosim::VectorCase a_case;
   std::uint64_t cases = 0, different = 0;
@@ -119,7 +117,7 @@ int replay(const FuzzOptions& o, const Contestants& all) {
 }
 
 int fuzz(const FuzzOptions& o) {
-  const Contestants all = contestants_of(o);
+  const Ways all = ways_asked_for(o);
   return o.replay.empty() ? campaign(o, all) : replay(o, all);
 }
 

@@ -2,8 +2,8 @@
 #include "sim/cosim/vectors.h"
 
 #include "sim/cli/options.h"
-#include "sim/cosim/contestants.h"
 #include "sim/cosim/random_job.h"
+#include "sim/levels/level.h"
 #include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/progress.h"
@@ -51,17 +51,19 @@ void check_options(const VectorsOptions& o) {
 /// used.
 class Arrays {
  public:
-  explicit Arrays(const std::string& level)
-      : contestant_(cosim::contestant_of(levels::level_named(level, "--level"))) {}
-  bool ahead() const { return contestant_.ahead; }
-  void expect(const cosim::ArrayJob& job) { made_.push_back(contestant_.make(job)); }
-  cosim::SharedBus next(const cosim::ArrayJob& job) {
-    return ahead() ? std::move(made_.at(used_++)) : contestant_.make(job);
+  explicit Arrays(const std::string& level) : level_(levels::level_named(level, "--level")) {}
+  bool ahead() const { return level_.made_ahead; }
+  void expect(const cosim::ArrayJob& job) { made_.push_back(level_.make_port(job.array, job.topology, {})); }
+  const hm_bus& next(const cosim::ArrayJob& job) {
+    if (ahead()) return made_.at(used_++)->bus();
+    made_.clear();
+    expect(job);
+    return made_.back()->bus();
   }
 
  private:
-  const cosim::Contestant contestant_;
-  std::vector<cosim::SharedBus> made_;
+  const levels::Level& level_;
+  std::vector<std::unique_ptr<levels::ArrayPort>> made_;
   std::size_t used_ = 0;
 };
 
@@ -71,7 +73,9 @@ class Arrays {
 std::optional<VectorCase> case_of_step(VectorsOptions& o) {
   if (o.step >= 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.step + 1));
   const levels::Prepared p = prepare(o.common);
-  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {});
+  levels::PortRequest request;
+  request.remarks = true;
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p, false, request);
   run::RunResult result;
   {
     const auto steps = static_cast<std::uint64_t>(o.step) + 1;
@@ -108,7 +112,7 @@ int write_vectors(VectorsOptions& o) {
   for (std::int64_t k = 0; k < cases; ++k) {
     if (levels::stop_requested) return interrupted;
     const VectorCase a_case = number(k);
-    file.add(a_case, o.blank ? nullptr : arrays.next(a_case.job).get());
+    file.add(a_case, o.blank ? nullptr : &arrays.next(a_case.job));
   }
   file.commit();
   fmt::print("{}: {} cases, {}\n", o.out, grouped(static_cast<std::uint64_t>(cases)),
@@ -128,8 +132,7 @@ int check_vectors(const VectorsOptions& o) {
   std::uint64_t cases = 0, lines = 0;
   for (; reader.next(a_case); ++cases) {
     if (levels::stop_requested) return interrupted;
-    const cosim::SharedBus bus = arrays.next(a_case.job);
-    const std::string wrong = cosim::check_answers(o.check, reader, a_case, *bus, lines);
+    const std::string wrong = cosim::check_answers(o.check, reader, a_case, arrays.next(a_case.job), lines);
     if (wrong.empty()) continue;
     fmt::print("{}\n", wrong);
     return differs;
@@ -144,8 +147,7 @@ int vectors(VectorsOptions& o) {
   check_options(o);
   try {
     return o.check.empty() ? write_vectors(o) : check_vectors(o);
-  } catch (const cosim::BusFault& fault) {
-    if (fault.error != HM_ERROR_STOPPED) throw;
+  } catch (const levels::Stopped&) {
     return interrupted;
   }
 }
@@ -169,7 +171,9 @@ void add_vectors(CLI::App& program, int& exit_code) {
   verb->add_option("--out", o->out, "the file to write (docs/use/test-vectors.md describes it)");
   verb->add_flag("--blank", o->blank, "without answers: a core fills them in");
   verb->add_option("--check", o->check, "judge a file that was filled in");
-  verb->add_option("--level", o->level, "engine | systemc | systemc-clock: whose answers count")
+  verb->add_option("--level", o->level,
+                   fmt::format("{}: whose answers count",
+                               fmt::join(levels::level_names({levels::Kind::array}), " | ")))
       ->capture_default_str();
   verb->footer("Example:\n  hopmesh vectors two-nodes --step 3 --out out/two-nodes.txt\n"
                "Exit: 0 done, all right; 1 a wrong answer (which is told); 2 bad input.");

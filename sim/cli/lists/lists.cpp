@@ -1,7 +1,8 @@
-// hopmesh scenes, presets, studies, problems: what comes with the program, a line each.
+// hopmesh scenes, presets, levels, studies, problems: what comes with the program, a line each.
 #include "rtl_model/spec/array_rules.h"
 #include "sim/cli/options.h"
 #include "sim/input/shipped.h"
+#include "sim/levels/level.h"
 #include "sim/networks/problems/problem.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,11 @@ void print_presets() {
                            array.formats.state.width, array.formats.link.width));
 }
 
+void print_levels() {
+  for (const levels::Level& level : levels::levels())
+    print_line(level.name + (level.name == levels::default_level().name ? " (default)" : ""), level.words);
+}
+
 void print_problems() {
   for (const std::string& name : problems::names()) print_line(name, problems::about(name));
 }
@@ -50,6 +56,11 @@ void add_scenes(CLI::App& program, int& exit_code) {
 
 void add_presets(CLI::App& program, int& exit_code) {
   add_list(program, exit_code, "presets", "the arrays that have a name", print_presets);
+}
+
+void add_levels(CLI::App& program, int& exit_code) {
+  add_list(program, exit_code, "levels", "what can fly a scene: the array in several forms, and its rivals",
+           print_levels);
 }
 
 void add_studies(CLI::App& program, int& exit_code) {

@@ -15,7 +15,7 @@ namespace {
 
 struct CompareOptions {
   CommonOptions common;
-  std::vector<std::string> levels{"reference", "engine", "systemc"};
+  std::vector<std::string> levels = levels::compared_names();
   std::int64_t steps = 0;
 };
 
@@ -24,7 +24,7 @@ int compare(CompareOptions& o) {
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   std::vector<const levels::Level*> rows;
   for (const std::string& name : o.levels)
-    rows.push_back(&levels::level_named(name, "--levels", {levels::Kind::reference, levels::Kind::array}));
+    rows.push_back(&levels::level_named(name, "--levels", levels::sweeping));
   const levels::Prepared p = prepare(o.common);
   const auto is_reference = [](const levels::Level* l) { return l->kind == levels::Kind::reference; };
   std::stable_partition(rows.begin(), rows.end(), is_reference);
@@ -34,11 +34,10 @@ int compare(CompareOptions& o) {
   if (o.levels.size() < 2)
     throw input::input_error("", 0, "--levels", o.levels[0] + " alone", "at least two levels");
   const bool check = is_reference(rows[0]);
-  std::vector<levels::Ready> ready;
-  std::vector<cosim::Contender> contenders;
-  for (const levels::Level* row : rows) ready.push_back(levels::make_ready(*row, p, check, {}));
-  for (auto& level : ready)
-    contenders.push_back({level.level->name, level.motion.get(), level.array, level.port.get()});
+  std::vector<levels::ReadyLevel> ready;
+  levels::PortRequest request;
+  request.remarks = true;
+  for (const levels::Level* row : rows) ready.push_back(levels::make_ready(*row, p, check, request));
 
   levels::catch_interrupts();
   cosim::Comparison comparison;
@@ -46,7 +45,7 @@ int compare(CompareOptions& o) {
     const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
     run::Progress progress(steps);
     comparison = cosim::compare(
-        contenders, *p.mesh, p.inputs.array, steps, [&](const levels::StepRow& row) { progress.step(row); },
+        ready, *p.mesh, p.inputs.array, steps, [&](const levels::StepRow& row) { progress.step(row); },
         levels::stop_requested);
   }
   fmt::print("{}", cosim::text_of(comparison, inputs, p.inputs.array));
@@ -61,7 +60,8 @@ void add_compare(CLI::App& program, int& exit_code) {
   CLI::App* verb = program.add_subcommand(
       "compare", "levels beside each other: bits, cycles, error against the reference");
   add_common(*verb, o->common);
-  verb->add_option("--levels", o->levels, "two or more of reference, engine, systemc, systemc-clock")
+  verb->add_option("--levels", o->levels,
+                   fmt::format("two or more of {}", fmt::join(levels::level_names(levels::sweeping), ", ")))
       ->delimiter(',');
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->footer("Example:\n  hopmesh compare two-nodes --levels reference,engine,systemc --steps 10\n"

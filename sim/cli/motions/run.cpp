@@ -43,6 +43,13 @@ levels::WaveRequest wave_of(const RunOptions& o, const levels::Level& level) {
   return wave;
 }
 
+levels::PortRequest request_of(const RunOptions& o) {
+  levels::PortRequest request;
+  request.engine.threads = static_cast<std::size_t>(o.threads);
+  request.remarks = true;
+  return request;
+}
+
 bool asks_reference(const RunOptions& o, const levels::Level& level) {
   return o.check || (level.checked && !o.no_check);
 }
@@ -50,7 +57,7 @@ bool asks_reference(const RunOptions& o, const levels::Level& level) {
 /// A run before its first step of this process, be it the very first or one behind a checkpoint.
 struct Begun {
   levels::Prepared prepared;
-  levels::Ready level;
+  levels::ReadyLevel level;
   std::unique_ptr<run::RunFiles> files;
   run::RunResult earlier; ///< what was done before
   std::uint64_t every = 0;
@@ -58,7 +65,8 @@ struct Begun {
 
 Begun begin(RunOptions& o) {
   const levels::Level& level = levels::level_named(o.level, "--level");
-  const levels::PortRequest request{wave_of(o, level), {static_cast<std::size_t>(o.threads)}};
+  levels::PortRequest request = request_of(o);
+  request.wave = wave_of(o, level);
   if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
   Begun run{prepare(o.common), {}, {}, {}, static_cast<std::uint64_t>(o.checkpoint_every)};
   if (o.steps > 0) o.common.overrides.pop_back();
@@ -84,8 +92,7 @@ Begun begin_again(const RunOptions& o) {
   run.every = o.checkpoint_every > 0 ? static_cast<std::uint64_t>(o.checkpoint_every) : saved.every;
   run.prepared = {std::move(found.inputs), std::move(found.mesh)};
   const levels::Level& level = levels::level_named(saved.level, saved.file);
-  run.level =
-      levels::make_ready(level, run.prepared, saved.check, {{}, {static_cast<std::size_t>(o.threads)}});
+  run.level = levels::make_ready(level, run.prepared, saved.check, request_of(o));
   run.level.motion->restore(saved.state, saved.ranges);
   run.earlier.rows = std::move(found.rows);
   run.earlier.wall_seconds = saved.wall_seconds;
@@ -163,11 +170,10 @@ void add_run(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "one simulation");
   add_common(*verb, o->common);
-  verb->add_option(
-          "--level", o->level,
-          fmt::format("{}, or a rival in double: {}",
-                      fmt::join(levels::level_names({levels::Kind::reference, levels::Kind::array}), " | "),
-                      fmt::join(levels::level_names({levels::Kind::rival}), " | ")))
+  verb->add_option("--level", o->level,
+                   fmt::format("{}, or a rival in double: {}",
+                               fmt::join(levels::level_names(levels::sweeping), " | "),
+                               fmt::join(levels::level_names({levels::Kind::rival}), " | ")))
       ->capture_default_str();
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");

@@ -98,8 +98,7 @@ int finish(const SolveRequest& o, const Task& task, const networks::GivenNetwork
 }
 
 int solve(const SolveRequest& o) {
-  const levels::Level& row =
-      levels::level_named(o.level, "--level", {levels::Kind::reference, levels::Kind::array});
+  const levels::Level& row = levels::level_named(o.level, "--level", levels::sweeping);
   if (!(o.threshold >= 0 && o.threshold <= 2))
     throw input::input_error("", 0, "--threshold", fmt::format("{}", o.threshold), "a number from 0 to 2");
   if (!o.rule.empty()) check_name(o.rule, "--rule", {"modified", "binary"});
@@ -111,8 +110,10 @@ int solve(const SolveRequest& o) {
   check_array(array, network.topology(), o.array);
   if (!o.out.empty()) files::check_writable(o.out, network.neurons() * 32);
   levels::catch_interrupts();
+  levels::PortRequest request;
+  request.remarks = true;
   std::unique_ptr<levels::ArrayPort> port;
-  if (row.has_bus()) port = row.make_port(array, network.topology(), {});
+  if (row.has_bus()) port = row.make_port(array, network.topology(), request);
   const auto level =
       port ? networks::array_level(network, array, *port) : networks::reference_level(network, array);
   try {
@@ -138,10 +139,8 @@ void add_solve(CLI::App& program, int& exit_code) {
   verb->add_option("--rule", o->rule,
                    "modified | binary: array.output; none: as the problem or the array has it");
   verb->add_flag("--asymmetric", o->files.asymmetric, "W may be so: then nothing says that energy falls");
-  verb->add_option(
-          "--level", o->level,
-          fmt::format("{}",
-                      fmt::join(levels::level_names({levels::Kind::reference, levels::Kind::array}), " | ")))
+  verb->add_option("--level", o->level,
+                   fmt::format("{}", fmt::join(levels::level_names(levels::sweeping), " | ")))
       ->capture_default_str();
   verb->add_option("--array", o->array, "an array file, or the name of a preset");
   verb->add_option("--set", o->overrides, "key.path=value: overrides a key of the array")

@@ -77,7 +77,8 @@ scene::Scene at_rest_scene(const BudgetOptions& o, scene::Scene scene) {
 }
 
 /// `p` and the array's level outlive the motions.
-std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p, const levels::Ready& array) {
+std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
+                           const levels::ReadyLevel& array) {
   const scene::Scene& scene = p.inputs.scene;
   std::vector<Link> chain;
   const std::shared_ptr<levels::Motion> run(std::shared_ptr<void>(), array.motion.get());
@@ -208,7 +209,7 @@ int budget(const BudgetOptions& o) {
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-budget") : o.out;
   files::check_writable(folder, 0);
   levels::catch_interrupts();
-  const levels::Ready array = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
+  const levels::ReadyLevel array = levels::make_ready(levels::default_level(), p);
   Budget budget;
   budget.times = times_of(p.inputs.scene.motion);
   budget.chain = chain_of(o, p, array);

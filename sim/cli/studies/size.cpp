@@ -22,10 +22,17 @@ namespace {
 namespace fs = std::filesystem;
 using study::Setting;
 
+constexpr const char* truth = "truth";
+
+/// What --against may name: the level that judges all others, or the truth.
+std::vector<std::string> judges() {
+  return {levels::level_names({levels::Kind::reference}).front(), truth};
+}
+
 struct SizeOptions {
   CommonOptions common;
   double error = 0, time_per_step = 0;
-  std::string against = "reference", out;
+  std::string against = judges().front(), out;
   std::int64_t steps = 0, workers = 0;
 };
 
@@ -52,22 +59,22 @@ Target target_of(const SizeOptions& o, const levels::Prepared& p, const fs::path
   target.positions = reference.positions();
   for (const levels::StepRow& row : result.rows) target.sweeps += row.sweeps;
   if (result.outcome == run::Outcome::diverged) target.trouble = "the reference: " + result.sentence;
-  if (o.against == "reference" || !target.trouble.empty()) return target;
+  if (o.against != truth || !target.trouble.empty()) return target;
   const double end = motion.time_step * static_cast<double>(motion.steps);
-  const study::Truth truth = study::TruthStore(folder).at(p.inputs, *p.mesh, {end});
-  if (truth.positions.empty()) {
+  const study::Truth exact = study::TruthStore(folder).at(p.inputs, *p.mesh, {end});
+  if (exact.positions.empty()) {
     target.trouble = "SUNDIALS gave up: there is no truth to measure against";
     return target;
   }
-  target.reached = run::rms_distance(target.positions, truth.positions[0]);
-  target.floor = truth.floor[0];
-  target.positions = truth.positions[0];
+  target.reached = run::rms_distance(target.positions, exact.positions[0]);
+  target.floor = exact.floor[0];
+  target.positions = exact.positions[0];
   return target;
 }
 
 // Ranges are of values: the array as given shows them.
 std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
-  const levels::Ready level = levels::make_ready(levels::default_level(), p, false, {{}, {}, true});
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
   run::simulate(*level.motion, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
                 levels::stop_requested);
   if (levels::stop_requested) throw study::SearchStopped();
@@ -185,7 +192,7 @@ void print(const SizeOptions& o, const levels::Prepared& p, const study::Sizing&
   const study::SizeEvidence &size = found.evidence[0], &file = found.evidence[1];
   fmt::print("{}: at most {} m rms from the {} after {}\n", p.inputs.scene.name, o.error, o.against,
              run::counted(static_cast<std::uint64_t>(p.inputs.scene.motion.steps), "step"));
-  if (o.against == "truth")
+  if (o.against == truth)
     fmt::print("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
                target.reached, target.floor);
   print_knobs(sizing, found);
@@ -236,7 +243,7 @@ int size(const SizeOptions& o) {
   levels::Prepared p = prepare(o.common);
   if (o.steps > 0) p.inputs.scene.motion.steps = o.steps;
   const study::Sizing checked(p.inputs, *p.mesh); // refuses before anything is written
-  if (o.against == "truth") study::TruthStore::expect_known(p.inputs.scene);
+  if (o.against == truth) study::TruthStore::expect_known(p.inputs.scene);
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-size") : o.out;
   const study::TrialFolder kept(folder, hash_of(o, p));
   try {
@@ -258,7 +265,7 @@ void add_size(CLI::App& program, int& exit_code) {
       ->required()
       ->check(positive_number());
   verb->add_option("--against", o->against, "reference (its free motion), or truth")
-      ->check(one_name_of({"reference", "truth"}))
+      ->check(one_name_of(judges()))
       ->capture_default_str();
   verb->add_option(
           "--time-per-step", o->time_per_step,

@@ -130,12 +130,11 @@ void tell_rest(const StudyOptions& o, const study::Study& study, const study::St
 std::shared_ptr<levels::Motion> motion_of(const std::string& method, const scene::Inputs& inputs) {
   struct Kept {
     levels::Prepared prepared;
-    levels::Ready level;
+    levels::ReadyLevel level;
   };
   auto kept = std::make_shared<Kept>();
   kept->prepared = {inputs, std::make_unique<levels::BuiltMesh>(inputs.scene)};
-  kept->level =
-      levels::make_ready(levels::level_named(method, "methods"), kept->prepared, true, {{}, {}, true, false});
+  kept->level = levels::make_ready(levels::level_named(method, "methods"), kept->prepared, true);
   levels::Motion* motion = kept->level.motion.get();
   return {kept, motion};
 }
@@ -159,7 +158,7 @@ study::Methods all_methods(const fs::path& folder) {
   const auto truth = [store = study::TruthStore(folder)](
                          const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                          const std::vector<double>& times) { return store.at(inputs, mesh, times); };
-  return {levels::method_names(), motion_of, truth};
+  return {levels::level_names(), motion_of, truth};
 }
 
 int run_study(const StudyOptions& o, const study::Study& study, fs::path& where) {

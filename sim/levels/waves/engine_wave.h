@@ -13,7 +13,7 @@ namespace hopmesh::levels {
 /// bus has delivered it.
 class EngineWave {
  public:
-  /// Throws scene::InputError for a cell that the array does not have.
+  /// Throws input::InputError for a cell that the array does not have.
   EngineWave(WaveRequest request, const spec::ArraySpec& array, const spec::Topology& topology);
   ~EngineWave();
   EngineWave(const EngineWave&) = delete;

@@ -12,7 +12,7 @@ namespace hopmesh::levels {
 /// Writes beside the final name and renames when closed. Walks the array by clock exactly while it is open.
 class Wave {
  public:
-  /// Throws scene::InputError for a cell that the array does not have.
+  /// Throws input::InputError for a cell that the array does not have.
   /// `waking`: of the array outside the window.
   Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signal<bool>& irq,
        systemc::Waking waking);

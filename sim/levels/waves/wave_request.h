@@ -14,12 +14,12 @@ struct WaveRequest {
   std::vector<std::size_t> cells;             ///< empty: all
 };
 
-/// "3:5" (steps), "1000:2000c" (cycles); either end may be left out. Throws scene::InputError.
+/// "3:5" (steps), "1000:2000c" (cycles); either end may be left out. Throws input::InputError.
 void parse_window(const std::string& text, WaveRequest& request);
-/// "0,4,10-12". Throws scene::InputError.
+/// "0,4,10-12". Throws input::InputError.
 std::vector<std::size_t> parse_cells(const std::string& text);
 
-/// Throws scene::InputError for a cell that the array does not have, and for a file that cannot be one.
+/// Throws input::InputError for a cell that the array does not have, and for a file that cannot be one.
 void check_wave(const WaveRequest& request, std::size_t cells);
 
 /// So little room that a wave had better end while it is whole.

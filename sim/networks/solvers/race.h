@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/networks/solvers/answer.h"
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
 
 #include <atomic>
 #include <functional>
@@ -42,11 +42,11 @@ struct Course {
   std::uint64_t least_sweep = 0; ///< when it was first met
 };
 
-/// One solver until the last gap, a cycle, a rest, max_sweeps or `stop`.
+/// Runs a solver until the last gap, a cycle, a rest, max_sweeps or `stop`.
 Course run_solver(const std::string& name, const Problem& problem, const Answer& answer, const Limits& limits,
                   const std::atomic<bool>& stop);
 
-/// The same for a solver of somebody else's; `make` counts as its preparation.
+/// Runs a solver of somebody else's likewise; `make` counts as its preparation.
 using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 Course run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
                   const Answer& answer, const Limits& limits, const std::atomic<bool>& stop);

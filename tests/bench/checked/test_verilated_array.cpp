@@ -115,7 +115,7 @@ void expect_every_cycle(VerilatedArray& array, const ArrayJob& job) {
   expect_result(array, slow);
 }
 
-/// One model, many networks, each loaded over the one before.
+/// A single model, many networks, each loaded over the one before.
 template <class Array> void compare_many(const char* name) {
   const BenchNetwork network = bench_network(name);
   Array array(network);

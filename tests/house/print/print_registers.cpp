@@ -1,5 +1,5 @@
 // print_registers PAGE: prints the tables of firmware/registers.h afresh into the page.
-#include "tests/house/register_tables.h"
+#include "tests/house/printed_registers.h"
 
 #include <fstream>
 #include <iostream>

@@ -1,0 +1,19 @@
+#include "sim/cosim/loaded_job.h"
+
+#include "firmware/registers.h"
+
+namespace hopmesh::cosim {
+
+ArrayJob loaded_job(const hm_bus& bus, const spec::ArraySpec& array, const spec::Topology& topology,
+                    Codes start) {
+  const BusArray there(bus, topology);
+  return {array,
+          topology,
+          there.weights(),
+          there.biases(),
+          std::move(start),
+          there.read(HM_REG_THRESHOLD),
+          there.read(HM_REG_MAX_SWEEPS)};
+}
+
+} // namespace hopmesh::cosim

@@ -1,0 +1,38 @@
+// An array behind its bus as C++ code asks it: load it, run it whole or sweep by sweep, read everything back.
+#pragma once
+
+#include "firmware/bus.h"
+#include "rtl_model/spec/relaxation.h"
+#include "rtl_model/spec/topology.h"
+#include "sim/levels/codes.h"
+
+namespace hopmesh::levels {
+
+/// Bus and topology must outlive it. Everything throws as check() of bus_error.h does.
+class BusArray {
+ public:
+  BusArray(const hm_bus& bus, const spec::Topology& topology) : bus_(bus), topology_(topology) {}
+
+  void load(const Codes& weights, const Codes& biases, const Codes& outputs) const;
+  void put_outputs(const Codes& codes) const;
+  /// From where V is, until at rest or `max_sweeps`.
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
+  spec::Relaxation one_sweep() const { return run(0, 1); }
+
+  Codes weights() const;
+  Codes biases() const;
+  Codes outputs() const;
+  std::uint32_t read(std::uint32_t address) const;
+  /// A register of two words; `low` is the address of the lower one.
+  std::uint64_t read_wide(std::uint32_t low) const;
+  void write(std::uint32_t address, std::uint32_t word) const;
+
+ private:
+  Codes read_window(std::uint32_t base, std::size_t count) const;
+  void write_window(std::uint32_t base, const Codes& codes) const;
+
+  const hm_bus& bus_;
+  const spec::Topology& topology_;
+};
+
+} // namespace hopmesh::levels
