@@ -14,7 +14,7 @@ struct Options {
   std::size_t followed = 0; ///< sweeps that follow each other through the mesh; 0: as many as help; 1: none
 };
 
-/// One array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
+/// An array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
 class Engine {
  public:
   /// The array must have passed spec::validate for the topology. Throws std::invalid_argument for a kernel

@@ -28,7 +28,7 @@ template <bool wrap, bool zero> [[gnu::always_inline]] inline void hold(Wide& su
     sum = sum < f.low ? Wide{} + f.low : sum > f.high ? Wide{} + f.high : sum;
 }
 
-/// One beat of a rounding accumulator. Each beat waits for the sum of the beat before, so as much as can be
+/// A beat of a rounding accumulator. Each beat waits for the sum of the beat before, so as much as can be
 /// is computed without that sum: the sum is a whole number, and floor(sum + x) = sum + floor(x). Rounding to
 /// even then takes a tie down, and up again where an odd sum is left.
 template <bool sign_matters, bool odd_matters>

@@ -33,10 +33,11 @@ struct KernelArgs {
   const Source* source;
   const std::uint8_t* waits; ///< does a block read one of the two before it? (never within a group)
   const std::uint32_t* far_slot;
-  /// Pairs of 16-bit codes in sixteen lanes, in the order in which a kernel reads them. Three neurons a cell:
-  /// x and y of one neighbour, x and y of the next, z of both, and so on; then own z beside a zero; then own
-  /// x and y. Two: x and y of each neighbour, then own. Each pair first for neuron 0, then for 1, then for 2.
-  /// One: x of one neighbour, x of the next, and so on; then own x beside a zero.
+  /// Pairs of 16-bit codes in sixteen lanes as a kernel reads them, each pair for neuron 0, then for 1, then
+  /// for
+  /// 2. Cells of three: x and y of a neighbour, x and y of the next, z of both, and so on; own z beside a
+  /// zero; own x and y. Cells of two: x and y of each neighbour, then own. Cells of one: x of a neighbour and
+  /// x of the next, and so on; own x beside a zero.
   const std::uint32_t* weight;
   const std::int32_t* bias;       ///< [block][p][lane], and so all below
   const std::int64_t* multiplier; ///< reciprocal, all with one point; or 1 / N as a double's bits

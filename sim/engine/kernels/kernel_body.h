@@ -1,4 +1,4 @@
-// One kernel for all instruction sets. `Isa` gives sixteen lanes of 32 bits (Words) and eight of 64 (Longs).
+// The kernel for all instruction sets. `Isa` gives sixteen lanes of 32 bits (Words) and eight of 64 (Longs).
 // Compiled once for each set, so everything here lives in an unnamed namespace and uses nothing of the
 // standard library: code made for one processor must not be picked for another.
 #pragma once
