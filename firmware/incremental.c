@@ -1,8 +1,8 @@
 #include "firmware/incremental.h"
 
 #include "firmware/bus.h"
+#include "firmware/doubles.h"
 #include "firmware/network.h"
-#include "firmware/numbers.h"
 
 /* At rest the largest output lies between these, else the step is relaxed again at another scale. Above, the
    output stage slows down (R = 1 - |V|) and clipping is near; below, places are lost. */

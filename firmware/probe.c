@@ -1,9 +1,9 @@
 /* The probe (docs/method/theory.md, section 4): outputs are directions, and a node's springs tell how far it
  * goes.
  */
+#include "firmware/doubles.h"
 #include "firmware/formulation.h"
 #include "firmware/network.h"
-#include "firmware/numbers.h"
 #include "firmware/springs.h"
 
 static const double shortest_direction = 1e-9;

@@ -1,6 +1,6 @@
 #include "firmware/quantise.h"
 
-#include "firmware/numbers.h"
+#include "firmware/doubles.h"
 #include "firmware/registers.h"
 
 double hm_power_of_two(int exponent) {

@@ -1,7 +1,7 @@
 #include "sim/study/size_trials.h"
 
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
 #include "sim/run/children.h"
 #include "sim/run/run_totals.h"
 

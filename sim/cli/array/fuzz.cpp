@@ -4,7 +4,7 @@
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
-#include "sim/levels/stop.h"
+#include "sim/levels/interrupt.h"
 #include "sim/run/array_info.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"

@@ -1,7 +1,7 @@
 // hopmesh solvers: other ways to the answer of one step's network, beside the network's own and the array's.
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
-#include "sim/levels/stop.h"
+#include "sim/levels/interrupt.h"
 #include "sim/networks/array_solver.h"
 #include "sim/networks/step_problem.h"
 #include "sim/pictures/svg_chart.h"

@@ -2,9 +2,9 @@
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
 #include "sim/levels/exact_step.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/levels/reference_motion.h"
-#include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
 #include "sim/run/run_totals.h"
@@ -31,7 +31,7 @@ struct BudgetOptions {
   double time = 0;
 };
 
-/// One motion of the chain, and what the next one mends.
+/// A motion of the chain, and what the next one mends.
 struct Link {
   std::string motion, mends;
   std::shared_ptr<levels::Motion> made;

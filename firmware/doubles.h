@@ -1,6 +1,6 @@
 /* What the firmware asks of doubles: C only. */
-#ifndef HOPMESH_FIRMWARE_NUMBERS_H
-#define HOPMESH_FIRMWARE_NUMBERS_H
+#ifndef HOPMESH_FIRMWARE_DOUBLES_H
+#define HOPMESH_FIRMWARE_DOUBLES_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "sim/levels/stop.h"
+#include "sim/levels/interrupt.h"
 
 #include <csignal>
 #include <unistd.h>
