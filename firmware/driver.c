@@ -1,7 +1,7 @@
 /* From doubles to raw codes and back, over the bus. Registers and windows: docs/hardware/registers.md. */
 #include "firmware/driver.h"
 
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 #include "firmware/registers.h"
 
 #define TRY(call)                                                                                            \
@@ -112,7 +112,7 @@ static int put(stream* s, const double* values, uint32_t count) {
   return HM_OK;
 }
 
-/* One row, each value divided by `norm` before it is scaled. */
+/* A row, each value divided by `norm` before it is scaled. */
 static int put_row(stream* s, const double* values, uint32_t count, double norm) {
   double divided[64];
   while (count > 0) {
@@ -162,7 +162,7 @@ static double value_of(uint64_t bits) {
   return (double_bits){.bits = bits}.value;
 }
 
-/* One power of two for the whole network: W stays symmetric, and u = s / N does not see it. */
+/* A single power of two serves the whole network: W stays symmetric, and u = s / N does not see it. */
 static int block_exponent(const hm_driver* d, double w, double b) {
   if (w == 0 && b == 0) return 0;
   if (w == 0) return hm_room(b, &d->bias);

@@ -4,7 +4,7 @@
 #ifndef HOPMESH_FIRMWARE_FORMULATION_H
 #define HOPMESH_FIRMWARE_FORMULATION_H
 
-#include "firmware/step.h"
+#include "firmware/time_step.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,7 +36,7 @@ typedef struct hm_formulation {
   void (*begin)(hm_step_work* work);
   /* Weights and bias about the outputs as they are. */
   void (*build)(const hm_step_work* work);
-  /* One expansion: builds and relaxes, hm_expand or more than one of it. */
+  /* An expansion: builds and relaxes, hm_expand or more than one of it. */
   int (*relax)(const hm_step_work* work);
   /* Null, or what `next` asks for beside the outputs at rest. */
   void (*weigh)(const hm_step_work* work);

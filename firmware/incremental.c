@@ -2,7 +2,7 @@
 
 #include "firmware/bus.h"
 #include "firmware/network.h"
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 
 /* At rest the largest output lies between these, else the step is relaxed again at another scale. Above, the
    output stage slows down (R = 1 - |V|) and clipping is near; below, places are lost. */

@@ -1,7 +1,7 @@
 #include "firmware/integrator.h"
 
 #include "firmware/bus.h"
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 
 /* The first cell whose node would have no finite place or velocity; HM_PINNED if there is none. */
 static uint32_t first_lost(const hm_step_work* work) {

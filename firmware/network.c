@@ -2,7 +2,7 @@
 #include "firmware/network.h"
 
 #include "firmware/bus.h"
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 
 uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell) {
   return mesh->components * (1 + mesh->first_link[cell + 1] - mesh->first_link[cell]);
@@ -105,7 +105,7 @@ static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, co
     }
 }
 
-/* One end of a spring: H_ii += S, H_ij = -S; so W gets the opposite. */
+/* An end of a spring: H_ii += S, H_ij = -S; so W gets the opposite. */
 static inline void add_spring_end(const hm_mesh* mesh, hm_network* network, uint32_t cell, uint32_t link,
                                   double s[3][3], const uint32_t n) {
   const uint32_t first = mesh->first_link[cell], row = n * (1 + mesh->first_link[cell + 1] - first);

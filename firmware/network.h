@@ -39,7 +39,7 @@ typedef struct hm_mesh {
   const uint32_t* link_to;      /* [first_link[cells]] neighbour cells, ascending in each row */
 } hm_mesh;
 
-/* One network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the
+/* A network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the
    cell's own components, then each neighbour's in link order. bias and output: [cells * components]. */
 typedef struct hm_network {
   double *weight, *bias, *output;

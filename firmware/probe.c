@@ -3,7 +3,7 @@
  */
 #include "firmware/formulation.h"
 #include "firmware/network.h"
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 #include "firmware/springs.h"
 
 static const double shortest_direction = 1e-9;

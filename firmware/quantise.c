@@ -1,6 +1,6 @@
 #include "firmware/quantise.h"
 
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 #include "firmware/registers.h"
 
 double hm_power_of_two(int exponent) {

@@ -1,6 +1,6 @@
 #include "firmware/springs.h"
 
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 
 static double distance(const double* a, const double* b) {
   const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

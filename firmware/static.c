@@ -1,7 +1,7 @@
 /* The static step (docs/method/theory.md, section 4): outputs are displacements towards the least potential
    energy, nothing has a speed, and a step is one of Newton's. */
 #include "firmware/incremental.h"
-#include "firmware/numbers.h"
+#include "firmware/plain_math.h"
 #include "firmware/springs.h"
 
 static const uint32_t most_halvings = 40;  /* of a step that would climb */

@@ -16,7 +16,7 @@ struct CommonOptions {
 
 /// SCENE, --array, --set.
 void add_common(CLI::App& verb, CommonOptions& options);
-/// The same as a shell takes them back.
+/// The common options as a shell takes them back.
 std::string words_of(const CommonOptions& options);
 /// A word in quotes where a shell would ask for them.
 std::string shell_word(const std::string& word);

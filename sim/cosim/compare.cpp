@@ -40,7 +40,7 @@ bool is_mark(std::uint64_t step, std::uint64_t steps) {
 
 namespace {
 
-// One step of every level, or how and why there was none.
+// A step of every level, or how and why there was none.
 std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, Comparison& result) {
   std::vector<levels::StepRow> rows;
   try {

@@ -1,4 +1,4 @@
-// The same job put to several arrays: everything that a host can see must be equal.
+// A job put to several arrays: everything that a host can see must be equal.
 #pragma once
 
 #include "sim/cosim/loaded_job.h"

@@ -45,7 +45,7 @@ Edges all_edges(std::size_t cells) {
   return edges;
 }
 
-/// One row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
+/// A row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
 void fill(Dice& dice, const spec::NumberFormat& format, std::int32_t* first, std::size_t count) {
   const std::uint64_t character = dice.below(8);
   for (std::size_t k = 0; k < count; ++k) {
@@ -174,7 +174,7 @@ ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topo
   for (std::size_t c = 0; c < topology.cells(); ++c)
     for (int p = 0; p < topology.neurons_per_cell; ++p)
       fill(dice, array.formats.weight, &job.weight[topology.row_offset(c, p)], topology.taps(c));
-  // The same few characters for the biases, cell by cell, so that whole rows of zeros and of extremes occur.
+  // Biases get those few characters too, cell by cell, so that whole rows of zeros and of extremes occur.
   job.bias.resize(topology.neurons());
   for (std::size_t k = 0; k < topology.neurons(); ++k) fill(dice, array.formats.bias, &job.bias[k], 1);
   job.start.resize(topology.neurons());

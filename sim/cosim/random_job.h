@@ -23,7 +23,7 @@ class Dice {
   bool one_in(std::uint64_t n) { return below(n) == 0; }
   /// In [0, 1)
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  /// One of the modes that have these names.
+  /// A mode out of those that have these names.
   template <typename Mode, std::size_t n> Mode mode(const std::array<std::string_view, n>&) {
     return static_cast<Mode>(below(n));
   }

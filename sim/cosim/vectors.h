@@ -35,7 +35,7 @@ class VectorWriter {
   files::OutputFile file_;
 };
 
-/// One line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
+/// A line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
 struct AnswerLine {
   int line = 0;
   bool end = false;

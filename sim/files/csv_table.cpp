@@ -12,7 +12,7 @@ namespace hopmesh::files {
 
 namespace {
 
-/// One cell, from `at` on; leaves `at` behind its comma or on its line's end.
+/// A cell, from `at` on; leaves `at` behind its comma or on its line's end.
 std::string take_cell(std::string_view text, std::size_t& at) {
   std::string cell;
   bool quoted = at < text.size() && text[at] == '"';

@@ -1,4 +1,4 @@
-// One writer a folder: whoever holds it may read what a killed run left there and go on with it.
+// A single writer a folder: whoever holds it may read what a killed run left there and go on with it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// One way from text to numbers.
+// The way from text to numbers.
 #pragma once
 
 #include <cstdint>

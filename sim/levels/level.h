@@ -27,7 +27,7 @@ struct PortRequest {
   bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
 };
 
-/// One of the settings in which a level computes the same bits.
+/// A setting, out of several, in which a level computes the same bits.
 struct Variant {
   std::string name = {}; ///< "" for the only one
   engine::Options engine = {};

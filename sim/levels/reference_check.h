@@ -36,7 +36,7 @@ class ReferenceCheck {
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;
-  /// The same expansion by the reference, from its own prediction; `start` becomes its point.
+  /// The reference's expansion at that point, from its own prediction; `start` becomes its point.
   reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
   double network_difference(const reference::Network& network, const hm_network& built) const;
 

@@ -50,7 +50,7 @@ enum class Subject {
   reference   ///< the array's answers against it
 };
 
-/// One figure made of a whole column. The totals of a subject are shown in this order.
+/// A figure made of a whole column. The totals of a subject are shown in this order.
 enum class Summary {
   sum,
   unmet, ///< of a condition: the steps in which it did not hold

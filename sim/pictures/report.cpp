@@ -35,7 +35,7 @@ std::string opened(const nlohmann::json& object) {
   return text;
 }
 
-/// One more member of an object that has some. Large arrays go straight into the file, as base64 digits,
+/// Another member of an object that has some. Large arrays go straight into the file, as base64 digits,
 /// which need no escaping.
 template <class Fill> void put_array(files::OutputFile& file, std::string_view name, Fill fill) {
   file.write(",\"");

@@ -12,7 +12,7 @@ struct ChartPoint {
   std::string tip, command;
 };
 
-/// One method (or one place on an axis): a colour. Each ladder is joined by a line.
+/// A method (or a place on an axis): a colour. Each ladder is joined by a line.
 struct ChartSeries {
   std::string name;
   std::vector<std::vector<ChartPoint>> ladders;

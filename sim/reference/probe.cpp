@@ -1,4 +1,4 @@
-// One time step of the probe: predict, expand, relax, advance (docs/method/theory.md, section 4).
+// A time step of the probe: predict, expand, relax, advance (docs/method/theory.md, section 4).
 #include "sim/reference/components.h"
 
 #include <cmath>

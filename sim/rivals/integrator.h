@@ -65,7 +65,7 @@ class Method {
 };
 
 const std::vector<std::string>& names();
-/// One of them for people, in a phrase.
+/// An integrator for people, in a phrase.
 const char* about(const std::string& name);
 
 /// Throws input::InputError for a name that is none of names(), a time step that is not positive, options out

@@ -25,7 +25,7 @@ struct ChildEnd {
 /// "killed by signal 9 (Killed)", "ended with exit code 2".
 std::string describe(const ChildEnd& end);
 
-/// One child at work. It is killed where its owner gives it up, and where its parent is killed.
+/// A child at work, which is killed where its owner gives it up, and where its parent is killed.
 class Child {
  public:
   /// The child leaves with the exit code that `work` returns.

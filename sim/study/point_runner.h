@@ -1,4 +1,4 @@
-// One point of a study: its settings in, one row of results out. The one place where methods plug in.
+// A point of a study: its settings in, one row of results out. The one place where methods plug in.
 #pragma once
 
 #include "sim/run/snapshots.h"

@@ -68,7 +68,7 @@ class Resume : public ::testing::TestWithParam<const char*> {
   std::atomic<bool> stop{false};
 };
 
-// One of each kind; bdf2 looks two steps back. tests/cli/test_resume.cpp tries every level.
+// A level of each kind; bdf2 looks two steps back. tests/cli/motions/test_resume.cpp tries every level.
 INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Values("engine", "reference", "bdf2"),
                          [](const auto& made) { return made.param; });
 

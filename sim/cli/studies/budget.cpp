@@ -31,7 +31,7 @@ struct BudgetOptions {
   double time = 0;
 };
 
-/// One motion of the chain, and what the next one mends.
+/// A motion of the chain, and what the next one mends.
 struct Link {
   std::string motion, mends;
   std::shared_ptr<levels::Motion> made;

@@ -1,4 +1,4 @@
-// One VCD of a clock-stepped array: the signals of the SystemC array's wave under the same names, so that
+// The VCD of a clock-stepped array: the signals of the SystemC array's wave under the same names, so that
 // what somebody saved for a viewer fits both.
 #pragma once
 

@@ -1,4 +1,4 @@
-// One chart a series, over time. The line that marks the moment is shared: with the other charts and with the 3-D view.
+// A chart for each series, over time. The line that marks the moment is shared: with the other charts and with the 3-D view.
 
 const CHART_HEIGHT = 180, LEFT = 52, RIGHT = 10, TOP = 14, BOTTOM = 34;
 

@@ -1,6 +1,6 @@
 /* What the firmware asks of doubles: C only. */
-#ifndef HOPMESH_FIRMWARE_NUMBERS_H
-#define HOPMESH_FIRMWARE_NUMBERS_H
+#ifndef HOPMESH_FIRMWARE_PLAIN_MATH_H
+#define HOPMESH_FIRMWARE_PLAIN_MATH_H
 
 #include <stdint.h>
 
