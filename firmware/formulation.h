@@ -4,7 +4,7 @@
 #ifndef HOPMESH_FIRMWARE_FORMULATION_H
 #define HOPMESH_FIRMWARE_FORMULATION_H
 
-#include "firmware/step.h"
+#include "firmware/time_step.h"
 
 #ifdef __cplusplus
 extern "C" {

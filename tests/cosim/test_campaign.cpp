@@ -4,6 +4,7 @@
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
 #include "sim/input/input_error.h"
+#include "tests/support/files.h"
 #include "tests/support/soft_array.h"
 
 #include <csignal>
@@ -89,8 +90,8 @@ TEST_F(CampaignTest, AFaultIsFoundShrunkAndWrittenSoThatItShowsAgain) {
   EXPECT_EQ(small.topology.links(), 2u);
   EXPECT_EQ(small.max_sweeps, 2u);
 
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "hopmesh-finding" / "case.txt";
+  const Folder folder;
+  const std::filesystem::path file = folder / "new/case.txt";
   write_finding(file, {"found", small}, two, {r.finding->text});
   VectorReader reader(file.string());
   VectorCase again;
@@ -102,7 +103,6 @@ TEST_F(CampaignTest, AFaultIsFoundShrunkAndWrittenSoThatItShowsAgain) {
   second.next(again);
   EXPECT_THAT(check_answers("f", second, again, faulty().make(small.array, small.topology)->bus(), lines),
               HasSubstr("case found, sweep 2"));
-  std::filesystem::remove_all(file.parent_path());
 }
 
 TEST_F(CampaignTest, ACrashNamesItsCaseAndShrinksToo) {
@@ -118,13 +118,13 @@ TEST_F(CampaignTest, ACrashNamesItsCaseAndShrinksToo) {
   EXPECT_EQ(small.topology.cells(), 5u);
   EXPECT_EQ(small.topology.links(), 0u);
 
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "hopmesh-crash.txt";
+  const Folder folder;
+  const std::filesystem::path file = folder / "crash.txt";
   write_finding(file, {"crash", small}, {crashing(), healthy()}, {"a crash"}); // no answers can be had
   VectorReader reader(file.string());
   VectorCase blank;
   ASSERT_TRUE(reader.next(blank));
   EXPECT_THROW(reader.answer(), input::InputError);
-  std::filesystem::remove(file);
 }
 
 TEST_F(CampaignTest, AFaultOfTheBusIsAFindingInWords) {

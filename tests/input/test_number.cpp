@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
-namespace hopmesh::input {
+namespace hopmesh::tests {
 namespace {
+
+using namespace input;
 
 TEST(Number, IsTheWholeText) {
   std::uint64_t count = 7;
@@ -54,4 +56,4 @@ TEST(Words, AreEmptyAtTheEnd) {
 }
 
 } // namespace
-} // namespace hopmesh::input
+} // namespace hopmesh::tests

@@ -1,6 +1,7 @@
 // The table of levels: rows that can be told apart and made, lookups that refuse, and a row of a test's own.
 #include "sim/levels/level.h"
 #include "sim/rivals/integrator.h"
+#include "tests/support/complaint.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -37,12 +38,7 @@ TEST(LevelTable, ListsByKind) {
 }
 
 std::string refusal(const std::string& name, levels::Kinds kinds) {
-  try {
-    levels::level_named(name, "--level", kinds);
-  } catch (const input::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint([&] { levels::level_named(name, "--level", kinds); });
 }
 
 TEST(LevelTable, RefusesANameOfNoneOrOfAnotherKind) {

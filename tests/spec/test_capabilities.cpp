@@ -6,8 +6,10 @@
 #include <map>
 #include <string>
 
-namespace hopmesh::spec {
+namespace hopmesh::tests {
 namespace {
+
+using namespace spec;
 
 TEST(Capabilities, TellEveryRegisterOfThatNameOnce) {
   std::map<std::uint32_t, int> told;
@@ -24,4 +26,4 @@ TEST(Capabilities, PackAFormatByteByByte) {
 }
 
 } // namespace
-} // namespace hopmesh::spec
+} // namespace hopmesh::tests

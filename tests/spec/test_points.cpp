@@ -7,8 +7,10 @@
 
 #include <cmath>
 
-namespace hopmesh::spec {
+namespace hopmesh::tests {
 namespace {
+
+using namespace spec;
 
 /// The value of the code 1.
 double last_place(const NumberFormat& f) {
@@ -53,4 +55,4 @@ TEST(Points, OfRandomArraysKeepTheValueOfACode) {
 }
 
 } // namespace
-} // namespace hopmesh::spec
+} // namespace hopmesh::tests

@@ -4,8 +4,10 @@
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -22,12 +24,12 @@ Point some_point() {
 
 /// The file of one row: header and cells.
 std::string file_of(const PointRow& row, const ResultColumns& columns = result_columns()) {
-  const tests::Folder folder;
+  const Folder folder;
   const Study study = two_axes();
   files::CsvWriter table(folder / "results.csv", result_header(study, columns));
   write_result(table, study, some_point(), row, columns);
   table.commit();
-  return tests::content_of(folder / "results.csv");
+  return content_of(folder / "results.csv");
 }
 
 TEST(ResultTable, HasAColumnAnAxisAndAColumnATime) {
@@ -77,4 +79,4 @@ TEST(ResultTable, ColumnsAreFoundByTheirHeadings) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests

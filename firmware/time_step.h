@@ -1,6 +1,6 @@
 /* A time step's parameters, the state that it advances, and what it took: every array is the caller's. */
-#ifndef HOPMESH_FIRMWARE_STEP_H
-#define HOPMESH_FIRMWARE_STEP_H
+#ifndef HOPMESH_FIRMWARE_TIME_STEP_H
+#define HOPMESH_FIRMWARE_TIME_STEP_H
 
 #include "firmware/relax.h"
 
