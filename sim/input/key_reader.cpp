@@ -33,12 +33,6 @@ double KeyReader::number(const TomlValue& value, const std::string& key, const R
   return x;
 }
 
-bool KeyReader::real(const std::string& key, double& target, const Range& range) {
-  const TomlValue* found = value(key);
-  if (found) target = number(*found, key, range);
-  return found;
-}
-
 bool KeyReader::integer(const std::string& key, std::int64_t& target, std::int64_t low, std::int64_t high) {
   const TomlValue* found = value(key);
   if (!found) return false;
@@ -47,13 +41,6 @@ bool KeyReader::integer(const std::string& key, std::int64_t& target, std::int64
     throw source_.error(*found, key, fmt::format("an integer from {} to {}", low, high));
   target = *whole;
   return true;
-}
-
-bool KeyReader::integer(const std::string& key, int& target, int low, int high) {
-  std::int64_t wide = target;
-  const bool found = integer(key, wide, std::int64_t{low}, std::int64_t{high});
-  target = static_cast<int>(wide);
-  return found;
 }
 
 bool KeyReader::text(const std::string& key, std::string& target, const std::string& expected) {
@@ -65,33 +52,12 @@ bool KeyReader::text(const std::string& key, std::string& target, const std::str
   return true;
 }
 
-bool KeyReader::flag(const std::string& key, bool& target) {
+std::optional<std::size_t> KeyReader::choice(const std::string& key, const std::vector<std::string>& names) {
   const TomlValue* found = value(key);
-  if (!found) return false;
-  if (!found->as<bool>()) throw source_.error(*found, key, "true or false");
-  target = *found->as<bool>();
-  return true;
-}
-
-bool KeyReader::vector(const std::string& key, std::array<double, 3>& target) {
-  const TomlValue* found = value(key);
-  if (!found) return false;
-  const auto* items = found->as<std::vector<TomlValue>>();
-  if (!items || items->size() != target.size()) throw source_.error(*found, key, "three numbers, [x, y, z]");
-  for (std::size_t k = 0; k < target.size(); ++k)
-    target[k] = number((*items)[k], fmt::format("{}[{}]", key, k), any_real);
-  return true;
-}
-
-bool KeyReader::choice(const std::string& key, std::string& target, const std::vector<std::string>& names) {
-  const TomlValue* found = value(key);
-  if (!found) return false;
+  if (!found) return std::nullopt;
   const auto* name = found->as<std::string>();
-  for (const std::string& valid : names)
-    if (name && *name == valid) {
-      target = valid;
-      return true;
-    }
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (name && *name == names[k]) return k;
   throw source_.error(*found, key, one_of(names), name ? nearest_name(*name, names) : "");
 }
 

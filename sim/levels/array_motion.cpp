@@ -29,9 +29,9 @@ std::string error_text(int error) {
 
 namespace {
 
-int rule_named(const std::string& name) {
-  if (name == "static") return HM_STATIC;
-  return name == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+int rule_of(scene::Rule rule) {
+  if (rule == scene::Rule::statics) return HM_STATIC;
+  return rule == scene::Rule::bdf2 ? HM_BDF2 : HM_BACKWARD_EULER;
 }
 
 } // namespace
@@ -44,14 +44,14 @@ hm_motion motion_of(const scene::Scene& scene) {
   m.drag = scene.force.drag;
   m.rule = HM_PROBE;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    m.rule = rule_named(scene.incremental.rule);
+    m.rule = rule_of(scene.incremental.rule);
   else
     m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
   m.gamma = scene.probe.gamma;
   m.beta = scene.probe.beta;
   m.acceleration_memory = scene.probe.acceleration_memory;
-  m.energy_of_all_springs = scene.probe.energy_springs == "all";
-  m.force_on_acceleration = scene.probe.force_on == "acceleration";
+  m.energy_of_all_springs = scene.probe.energy_springs == scene::EnergySprings::all;
+  m.force_on_acceleration = scene.probe.force_on == scene::ForceOn::acceleration;
   for (std::size_t x = 0; x < 3; ++x)
     m.force[x] = scene.force.gravity[x] + (scene.force.wind ? (*scene.force.wind)[x] : 0.0);
   m.threshold = scene.relax.threshold;

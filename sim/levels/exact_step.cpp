@@ -13,7 +13,8 @@ scene::Scene without_friction(scene::Scene scene) {
 } // namespace
 
 ExactStep::ExactStep(const scene::Scene& scene, const BuiltMesh& mesh)
-    : rival_(scene.incremental.rule, without_friction(scene), mesh), friction_(scene.motion.friction) {}
+    : rival_(name_of(scene.incremental.rule), without_friction(scene), mesh),
+      friction_(scene.motion.friction) {}
 
 StepRow ExactStep::advance() {
   StepRow row = rival_.advance();

@@ -77,9 +77,9 @@ Vector3 vector(const scene::Vector3& v) {
   return {v[0], v[1], v[2]};
 }
 
-Rule rule_named(const std::string& name) {
-  if (name == "static") return Rule::statics;
-  return name == "bdf2" ? Rule::bdf2 : Rule::backward_euler;
+Rule rule_of(scene::Rule rule) {
+  if (rule == scene::Rule::statics) return Rule::statics;
+  return rule == scene::Rule::bdf2 ? Rule::bdf2 : Rule::backward_euler;
 }
 
 } // namespace
@@ -91,12 +91,12 @@ Motion motion_of(const scene::Scene& scene) {
   motion.gamma = scene.probe.gamma;
   motion.beta = scene.probe.beta;
   motion.acceleration_memory = scene.probe.acceleration_memory;
-  motion.energy_of_all_springs = scene.probe.energy_springs == "all";
-  motion.force_on_acceleration = scene.probe.force_on == "acceleration";
+  motion.energy_of_all_springs = scene.probe.energy_springs == scene::EnergySprings::all;
+  motion.force_on_acceleration = scene.probe.force_on == scene::ForceOn::acceleration;
   motion.mass = scene.mesh.mass;
   motion.drag = scene.force.drag;
   if (scene.motion.formulation == scene::Formulation::incremental)
-    motion.rule = rule_named(scene.incremental.rule);
+    motion.rule = rule_of(scene.incremental.rule);
   else
     motion.friction /= 1 + motion.drag * motion.time_step;
   motion.force = vector(scene.force.gravity) + vector(scene.force.wind.value_or(scene::Vector3{0, 0, 0}));

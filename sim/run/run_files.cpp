@@ -85,8 +85,8 @@ Totals totals_of(const RunResult& result, const levels::BuiltMesh& mesh) {
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
                    const levels::Motion& motion)
-    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), mesh_hash_(run::mesh_hash(mesh.mesh())),
-      image_(image_of(facts.inputs.scene)), lock_(folder),
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh),
+      mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)), lock_(folder),
       positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
   if (facts.level->has_codes()) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
   positions_.append(motion.positions());
@@ -220,7 +220,7 @@ std::string RunFiles::manifest(const RunResult& result) const {
       {"seed", nullptr}, // nothing in a run is drawn at random
       {"outcome", name_of(result.outcome)},
       {"scene", scene::scene_text(facts_.inputs.scene)},
-      {"array", facts_.level->has_codes() ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
+      {"array", facts_.level->has_codes() ? Json(input::array_text(facts_.inputs.array)) : Json(nullptr)},
       {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
       {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
   json["step_hashes"] = Json::array();

@@ -30,7 +30,11 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
     else
       override_scene(source, split.first, split.second);
   }
-  return {read_scene(source, path), input::read_array(array, of_array)};
+  Inputs inputs{read_scene(source, path), {}};
+  Scene fresh;
+  inputs.notes = input::without_effect(source, scene_keys(inputs.scene), scene_keys(fresh));
+  inputs.array = input::read_array(array, of_array, inputs.notes);
+  return inputs;
 }
 
 namespace {

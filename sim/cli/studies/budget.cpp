@@ -1,9 +1,9 @@
 // hopmesh budget: how much of a run's distance from the truth is whose.
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
-#include "sim/levels/reference_motion.h"
 #include "sim/levels/exact_step.h"
 #include "sim/levels/level.h"
+#include "sim/levels/reference_motion.h"
 #include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
@@ -92,7 +92,7 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p, co
        std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
        {}});
   if (!is_probe(p))
-    chain.push_back({scene.incremental.rule + ", each step solved exactly",
+    chain.push_back({name_of(scene.incremental.rule) + ", each step solved exactly",
                      "time step",
                      std::make_shared<levels::ExactStep>(scene, *p.mesh),
                      {}});

@@ -2,8 +2,8 @@
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
 #include "sim/files/running_check.h"
-#include "sim/levels/reference_motion.h"
 #include "sim/levels/level.h"
+#include "sim/levels/reference_motion.h"
 #include "sim/levels/stop.h"
 #include "sim/rivals/physics.h"
 #include "sim/run/array_info.h"
@@ -77,7 +77,7 @@ std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
 std::uint64_t hash_of(const SizeOptions& o, const levels::Prepared& p) {
   files::RunningCheck check;
   for (const std::string& text :
-       {o.against, scene::scene_text(p.inputs.scene), scene::array_text(p.inputs.array)})
+       {o.against, scene::scene_text(p.inputs.scene), input::array_text(p.inputs.array)})
     check.add(text.data(), text.size() + 1);
   return check.value();
 }
@@ -134,7 +134,7 @@ void write_array(const fs::path& file, const SizeOptions& o, const study::Sizing
   files::write_file(
       file, fmt::format("# The least array found for {} at {} m rms from the {}. With its own sweeps:{}\n{}",
                         o.common.scene, o.error, o.against, relaxation_words(sizing, found),
-                        scene::array_text(sizing.array_of(found.setting))));
+                        input::array_text(sizing.array_of(found.setting))));
 }
 
 /// The row of the evidence about a knob.
