@@ -1,4 +1,4 @@
-/* From doubles to raw codes and back, over the bus. Registers and windows: docs/registers.md. */
+/* From doubles to raw codes and back, over the bus. Registers and windows: docs/hardware/registers.md. */
 #include "firmware/driver.h"
 
 #include "firmware/registers.h"

@@ -1,5 +1,5 @@
-/* The formulations of a time step (docs/theory.md, section 4), and what they share: for integrator.c and them
-   alone. */
+/* The formulations of a time step (docs/method/theory.md, section 4), and what they share: for integrator.c
+   and them alone. */
 #ifndef HOPMESH_FIRMWARE_FORMULATIONS_H
 #define HOPMESH_FIRMWARE_FORMULATIONS_H
 

@@ -1,6 +1,7 @@
-/* One time step of the incremental potential: docs/theory.md, section 4. Outputs are changes of acceleration
-   over a scale sigma, a power of two chosen step by step so that they use their range without being clipped.
-   The static rule is the same without inertia: outputs are displacements, and a step is one of Newton's.
+/* One time step of the incremental potential: docs/method/theory.md, section 4. Outputs are changes of
+   acceleration over a scale sigma, a power of two chosen step by step so that they use their range without
+   being clipped. The static rule is the same without inertia: outputs are displacements, and a step is one of
+   Newton's.
  */
 #include "firmware/formulations.h"
 

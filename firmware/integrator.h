@@ -1,5 +1,5 @@
-/* One time step: predict, build the network, relax it wherever the solver says, advance (docs/theory.md,
-   section 4). */
+/* One time step: predict, build the network, relax it wherever the solver says, advance
+   (docs/method/theory.md, section 4). */
 #ifndef HOPMESH_FIRMWARE_INTEGRATOR_H
 #define HOPMESH_FIRMWARE_INTEGRATOR_H
 

@@ -1,4 +1,4 @@
-/* Weights and bias from mesh and motion: docs/theory.md, section 2. */
+/* Weights and bias from mesh and motion: docs/method/theory.md, section 2. */
 #include "firmware/network.h"
 
 #include "firmware/bus.h"

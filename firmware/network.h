@@ -1,5 +1,5 @@
-/* Mesh and predicted motion -> weights and bias of the modified Hopfield network (docs/theory.md, sections 1
-   and 2). No heap: every array belongs to the caller. */
+/* Mesh and predicted motion -> weights and bias of the modified Hopfield network (docs/method/theory.md,
+   sections 1 and 2). No heap: every array belongs to the caller. */
 #ifndef HOPMESH_FIRMWARE_NETWORK_H
 #define HOPMESH_FIRMWARE_NETWORK_H
 
@@ -53,15 +53,15 @@ uint32_t hm_weight_count(const hm_mesh* mesh);
 /* Finds each spring's two links. Returns HM_OK, or HM_ERROR_MESH if a spring between free nodes has none. */
 int hm_mesh_connect(hm_mesh* mesh);
 
-/* Writes W and I of docs/theory.md, section 2 about the expansion point network->output (V0), which stays as
-   it is. predicted: C, [nodes * 3] in metres; h = dt^2 / 2; beta_scale = beta * dt^4. A spring of no length
-   at the expansion point keeps its L = 0 part only (its direction is undefined). */
+/* Writes W and I of docs/method/theory.md, section 2 about the expansion point network->output (V0), which
+   stays as it is. predicted: C, [nodes * 3] in metres; h = dt^2 / 2; beta_scale = beta * dt^4. A spring of no
+   length at the expansion point keeps its L = 0 part only (its direction is undefined). */
 void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
                       hm_network* network);
 
-/* The same of the incremental potential (docs/theory.md, section 4), whose outputs move a node by reach * V
-   metres and weigh inertia (kg/s^2) / 2 times the square of that. Compressed springs count convex: W is
-   negative semi-definite. */
+/* The same of the incremental potential (docs/method/theory.md, section 4), whose outputs move a node by
+   reach * V metres and weigh inertia (kg/s^2) / 2 times the square of that. Compressed springs count convex:
+   W is negative semi-definite. */
 void hm_network_build_incremental(const hm_mesh* mesh, const double* predicted, double reach, double inertia,
                                   hm_network* network);
 

@@ -1,4 +1,4 @@
-/* One time step of the probe formulation: docs/theory.md, section 4. */
+/* One time step of the probe formulation: docs/method/theory.md, section 4. */
 #include "firmware/formulations.h"
 
 double sqrt(double);

@@ -1,5 +1,5 @@
 /* From a double to a raw code: the firmware's own rounding and overflow, with SystemC's meaning
- * (docs/formats.md). */
+ * (docs/hardware/number-formats.md). */
 #ifndef HOPMESH_FIRMWARE_QUANTISE_H
 #define HOPMESH_FIRMWARE_QUANTISE_H
 

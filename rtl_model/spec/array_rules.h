@@ -63,8 +63,8 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   return std::nullopt;
 }
 
-/// `descent`: exact sums, state = link, all rounding toward zero: the energy can only fall (docs/theory.md,
-/// section 3).
+/// `descent`: exact sums, state = link, all rounding toward zero: the energy can only fall
+/// (docs/method/theory.md, section 3).
 inline ArraySpec descent_array() {
   ArraySpec a;
   a.name = "descent";

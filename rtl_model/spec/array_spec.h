@@ -1,5 +1,6 @@
 // What the array IS, as data: number formats per signal class, schedule, lanes, normaliser, bus.
-// Every option changes bits or cycles; docs/datapath.md says which bits, docs/cycles.md which cycles.
+// Every option changes bits or cycles; docs/hardware/datapath.md says which bits, docs/hardware/cycles.md
+// which cycles.
 #pragma once
 
 #include "rtl_model/spec/number_format.h"
@@ -66,8 +67,8 @@ inline bool has_reciprocal(const ArraySpec& a) {
   return a.output == Output::modified && a.normaliser == Normaliser::reciprocal;
 }
 
-/// Width that holds every sum of a row of `taps` products and its bias without loss (docs/datapath.md).
-/// Its fraction is that of a product, or of the bias where that is finer.
+/// Width that holds every sum of a row of `taps` products and its bias without loss
+/// (docs/hardware/datapath.md). Its fraction is that of a product, or of the bias where that is finer.
 inline NumberFormat exact_accumulator_format(const Formats& f, std::size_t taps) {
   const int product_fraction = f.weight.fraction_bits() + f.link.fraction_bits();
   const int fraction = std::max(product_fraction, f.bias.fraction_bits());

@@ -1,5 +1,5 @@
 // Mesh graph -> colours -> phases -> cycles. The order in which neurons fire and what it costs, as formulas.
-// docs/cycles.md prints the same formulas; tests hold the SystemC array to them, to the cycle.
+// docs/hardware/cycles.md prints the same formulas; tests hold the SystemC array to them, to the cycle.
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
@@ -41,7 +41,7 @@ inline std::vector<std::size_t> phase_of_neurons(const Topology& t, const Phases
   return phase;
 }
 
-/// Cycle counts of an array built for a topology (docs/cycles.md).
+/// Cycle counts of an array built for a topology (docs/hardware/cycles.md).
 struct CycleModel {
   std::uint64_t prepare = 0;        ///< once a run, after the start cycle: N of every row, and its reciprocal
   std::vector<std::uint64_t> phase; ///< accumulate + normalise + output, by the longest row that fires

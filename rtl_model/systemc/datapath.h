@@ -1,5 +1,5 @@
 // Where the points of all signals lie, and by how many places each step moves them: worked out once for an
-// array, and read by every neuron of it (docs/datapath.md).
+// array, and read by every neuron of it (docs/hardware/datapath.md).
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"

@@ -1,6 +1,6 @@
 // The array as others see it: a TLM-2.0 target socket, a register file, windows onto weights, biases and
-// outputs, and an interrupt line. This is the module to put into somebody else's sc_main (docs/registers.md,
-// tests/example/).
+// outputs, and an interrupt line. This is the module to put into somebody else's sc_main
+// (docs/hardware/registers.md, tests/example/).
 #pragma once
 
 #include "rtl_model/systemc/cellular_array.h"

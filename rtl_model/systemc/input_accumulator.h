@@ -1,4 +1,5 @@
-// First part of a neuron: s = sum of weight * link + bias, and N = sum |weight| + |bias| (docs/datapath.md).
+// First part of a neuron: s = sum of weight * link + bias, and N = sum |weight| + |bias|
+// (docs/hardware/datapath.md).
 #pragma once
 
 #include "rtl_model/systemc/datapath.h"

@@ -1,5 +1,5 @@
 // Second part of a neuron: u = s / N, or sign(s) where outputs are binary; R = 1 - V or 1 + V, V <- V + R u
-// (docs/datapath.md).
+// (docs/hardware/datapath.md).
 #pragma once
 
 #include "rtl_model/systemc/datapath.h"

@@ -1,5 +1,5 @@
 // The one door through which the SystemC model loses bits: rounding and overflow on integers
-// (docs/datapath.md, Q).
+// (docs/hardware/datapath.md, Q).
 #pragma once
 
 #include "rtl_model/spec/number_format.h"

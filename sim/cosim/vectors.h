@@ -1,5 +1,5 @@
 // Test vectors: jobs and their answers, phase by phase, as a text that cores which are not ours can read,
-// fill in and be judged by. docs/vectors.md describes the file.
+// fill in and be judged by. docs/use/test-vectors.md describes the file.
 #pragma once
 
 #include "sim/cosim/divergence.h"

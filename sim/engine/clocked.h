@@ -1,5 +1,5 @@
 // The array clock by clock: every register of every neuron stands in memory after every clock, as the
-// hardware has it. docs/engine.md, "Clock by clock".
+// hardware has it. docs/hardware/engine.md, "Clock by clock".
 #pragma once
 
 #include "sim/engine/clocked_beats.h"

@@ -1,5 +1,5 @@
-// The engine behind the array's bus: registers, windows and interrupt line as docs/registers.md says, so that
-// firmware cannot tell which level answers.
+// The engine behind the array's bus: registers, windows and interrupt line as docs/hardware/registers.md
+// says, so that firmware cannot tell which level answers.
 #pragma once
 
 #include "firmware/bus.h"

@@ -1,5 +1,5 @@
 // The array without an event kernel: every bit by loops over blocks of cells, every cycle by formula.
-// docs/engine.md walks through it.
+// docs/hardware/engine.md walks through it.
 #pragma once
 
 #include "sim/engine/sweeper.h"

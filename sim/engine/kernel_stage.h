@@ -82,7 +82,7 @@ template <typename Isa> struct KernelStage {
   };
 
   // floor(s / N) with a quarter of 1 / N to spare on either side: more than a double's error, since s and the
-  // quotient have few enough bits (docs/engine.md).
+  // quotient have few enough bits (docs/hardware/engine.md).
   static Longs divided(Longs s, const std::int64_t* inverse, const Stage& c) {
     const Longs x = Isa::shift_up(s, c.ratio_up);
     const Longs flip = Isa::bits_xor(Isa::bits_and(Isa::signs(x), c.flip_by_sign), c.flip_always);

@@ -1,5 +1,6 @@
-// The engine's door for losing bits: SystemC's rounding and overflow modes on integers (docs/datapath.md, Q).
-// Each mode is a floor after the right thing was added; nothing here is shared with another level.
+// The engine's door for losing bits: SystemC's rounding and overflow modes on integers
+// (docs/hardware/datapath.md, Q). Each mode is a floor after the right thing was added; nothing here is
+// shared with another level.
 #pragma once
 
 #include "rtl_model/spec/number_format.h"

@@ -1,5 +1,10 @@
 #include "sim/levels/systemc_port.h"
 
+// SystemC's library wants an sc_main. Programs that only use the levels have none of their own.
+__attribute__((weak)) int sc_main(int, char**) {
+  return 0;
+}
+
 namespace hopmesh::levels {
 
 using sc_core::sc_time;

@@ -1,4 +1,4 @@
-// The report's HTML, CSS and JavaScript, by file name: made from sim/record/report/ when the program is
+// The report's HTML, CSS and JavaScript, by file name: made from sim/pictures/report/ when the program is
 // built.
 #pragma once
 

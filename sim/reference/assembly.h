@@ -1,4 +1,4 @@
-// Second-order expansions of energy terms, gathered into weights and bias (docs/theory.md, section 2).
+// Second-order expansions of energy terms, gathered into weights and bias (docs/method/theory.md, section 2).
 // W is symmetric to the last bit: each 3x3 block is, and both ends of a spring get the same one.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The energies: what the springs hold, and what a step minimises (docs/theory.md, section 1).
+// The energies: what the springs hold, and what a step minimises (docs/method/theory.md, section 1).
 #include "sim/reference/components.h"
 
 namespace hopmesh::reference {
@@ -11,8 +11,8 @@ double spring_energy(const scene::Mesh& mesh, const Vector& position) {
   return sum;
 }
 
-// docs/theory.md, section 2: the weight of the unit-length term, in the units of the spring terms (h^2 alpha
-// ~ dt^4).
+// docs/method/theory.md, section 2: the weight of the unit-length term, in the units of the spring terms (h^2
+// alpha ~ dt^4).
 Vector node_beta(const scene::Mesh& mesh, const Motion& motion) {
   Vector sum = Vector::Zero(nodes_of(mesh)), count = Vector::Zero(nodes_of(mesh));
   for (const scene::Spring& spring : mesh.springs)
@@ -35,7 +35,8 @@ Vector displaced(const scene::Mesh& mesh, double h, const Vector& predicted, con
 
 } // namespace
 
-// docs/theory.md, section 1; paper eq. 15. Pinned nodes have no neurons, so no unit-length term either.
+// docs/method/theory.md, section 1; paper eq. 15. Pinned nodes have no neurons, so no unit-length term
+// either.
 double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V) {
   const double h = motion.time_step * motion.time_step / 2;
   double sum = spring_energy(mesh, displaced(mesh, h, predicted, V));

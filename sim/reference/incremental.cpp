@@ -1,6 +1,6 @@
-// One time step of the incremental potential (docs/theory.md, section 4): backward Euler and BDF2 as the
-// minimum of inertia and springs, relaxed by the network at a scale that suits its outputs; the static step
-// as the minimum of springs and load alone.
+// One time step of the incremental potential (docs/method/theory.md, section 4): backward Euler and BDF2 as
+// the minimum of inertia and springs, relaxed by the network at a scale that suits its outputs; the static
+// step as the minimum of springs and load alone.
 #include "sim/reference/assembly.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Motions of scenes, and one time step of the probe formulation: predict, expand, relax, advance
-// (docs/theory.md, section 4).
+// (docs/method/theory.md, section 4).
 #include "sim/reference/components.h"
 
 #include <cmath>
@@ -119,7 +119,7 @@ State initial_state(const scene::Mesh& mesh, Rule rule) {
   return state;
 }
 
-// docs/theory.md, section 1: C_i = x_i + v_i dt + h memory a_i, and x_i where pinned.
+// docs/method/theory.md, section 1: C_i = x_i + v_i dt + h memory a_i, and x_i where pinned.
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state) {
   const double dt = motion.time_step, h = dt * dt / 2;
   Vector predicted = state.position;
@@ -130,7 +130,7 @@ Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state
   return predicted;
 }
 
-// docs/theory.md, section 2.
+// docs/method/theory.md, section 2.
 Vector expansion_point(const scene::Mesh& mesh, const State& state) {
   Vector V0 = Vector::Zero(components(mesh) * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
@@ -141,8 +141,8 @@ Vector expansion_point(const scene::Mesh& mesh, const State& state) {
   return V0;
 }
 
-// docs/theory.md, section 4 (probe). With more than one expansion the step reports the last one, sweeps
-// summed: from V0, its network comes to rest at relaxation.V.
+// docs/method/theory.md, section 4 (probe). With more than one expansion the step reports the last one,
+// sweeps summed: from V0, its network comes to rest at relaxation.V.
 Step advance_probe(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
   Step step;
   step.predicted = predict(mesh, motion, state);

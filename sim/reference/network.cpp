@@ -1,5 +1,5 @@
 // From energy to network, the paper's: the second-order expansion of E about V0, as weights and bias
-// (docs/theory.md, section 2).
+// (docs/method/theory.md, section 2).
 #include "sim/reference/assembly.h"
 
 namespace hopmesh::reference {
@@ -17,7 +17,7 @@ Expansion expand_unit_length(double beta, const Vector3& V0) {
 
 } // namespace
 
-// The paper's T1 to T4 and I, corrected (docs/theory.md, sections 2 and 6).
+// The paper's T1 to T4 and I, corrected (docs/method/theory.md, sections 2 and 6).
 Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0) {
   const double h = motion.time_step * motion.time_step / 2;
   const Vector beta = node_beta(mesh, motion);

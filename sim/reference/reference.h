@@ -1,5 +1,5 @@
-// The algorithm in double precision with Eigen: the readable definition, written from docs/theory.md alone.
-// It shares no arithmetic with the firmware or the array; that they agree is evidence.
+// The algorithm in double precision with Eigen: the readable definition, written from docs/method/theory.md
+// alone. It shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
 #include "sim/scene/mesh.h"
@@ -62,21 +62,21 @@ struct State {
 
 State initial_state(const scene::Mesh& mesh, Rule rule = Rule::probe);
 
-// ---- probe (docs/theory.md, sections 1, 2, 4)
+// ---- probe (docs/method/theory.md, sections 1, 2, 4)
 
-/// C of docs/theory.md, section 1: [3 * nodes].
+/// C of docs/method/theory.md, section 1: [3 * nodes].
 Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
 /// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter
 /// than 1e-9.
 Vector expansion_point(const scene::Mesh& mesh, const State& state);
-/// E(V) of docs/theory.md, section 1 (paper eq. 15).
+/// E(V) of docs/method/theory.md, section 1 (paper eq. 15).
 double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
 /// What all springs hold: sum of alpha (|x_i - x_j| - L)^2, or of their constant pull's work.
 double spring_energy(const scene::Mesh& mesh, const Vector& position);
-/// W = -H, I = H V0 - g of docs/theory.md, section 2, about V0.
+/// W = -H, I = H V0 - g of docs/method/theory.md, section 2, about V0.
 Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);
 
-// ---- incremental potential (docs/theory.md, section 4)
+// ---- incremental potential (docs/method/theory.md, section 4)
 
 /// What one step minimises: inertia about a prediction, and the springs.
 struct Increment {
@@ -97,8 +97,8 @@ Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const Stat
 
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
-/// The rule of docs/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more than
-/// threshold in a sweep, or max_sweeps.
+/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more
+/// than threshold in a sweep, or max_sweeps.
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
                  std::uint32_t max_sweeps, Output output = Output::modified);
 /// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
@@ -113,7 +113,7 @@ struct Step {
   Relaxation relaxation;
 };
 
-/// One whole step of docs/theory.md, section 4.
+/// One whole step of docs/method/theory.md, section 4.
 Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

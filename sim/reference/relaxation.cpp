@@ -1,5 +1,5 @@
-// The modified Hopfield network at work: neurons fire, phase by phase, until they rest (docs/theory.md,
-// section 3).
+// The modified Hopfield network at work: neurons fire, phase by phase, until they rest
+// (docs/method/theory.md, section 3).
 #include "sim/reference/reference.h"
 
 #include <algorithm>
@@ -91,7 +91,7 @@ Relaxation relax(const Network& network, const Order& order, Vector V, double th
 }
 
 // How far a step of u = s / N along the negative gradient gets before the box stops it. It is 0 exactly where
-// the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/theory.md, section 3).
+// the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/method/theory.md, section 3).
 double kkt_violation(const Network& network, const Vector& V) {
   const Vector N = normalisers(network);
   double largest = 0;

@@ -14,8 +14,8 @@ class Stiffness {
  public:
   explicit Stiffness(const Physics& physics);
 
-  /// Sum of S_e (docs/theory.md, section 2, without h^2) plus `diagonal` on every coordinate. `projected`:
-  /// L/l at most 1, which leaves every spring, and so the whole, without negative directions.
+  /// Sum of S_e (docs/method/theory.md, section 2, without h^2) plus `diagonal` on every coordinate.
+  /// `projected`: L/l at most 1, which leaves every spring, and so the whole, without negative directions.
   void assemble(In position, double diagonal, bool projected);
   const Sparse& lower() const { return matrix_; } ///< the lower triangle of a symmetric matrix
 

@@ -1,5 +1,5 @@
 // The checkpoint of a run: all that is needed to go on with it bit for bit, in one file. Lines of text that
-// are checked one by one, then the state in binary. docs/results.md has its keys.
+// are checked one by one, then the state in binary. docs/use/results-folder.md has its keys.
 #pragma once
 
 #include "sim/files/grey_picture.h"

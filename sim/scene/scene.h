@@ -1,4 +1,5 @@
-// A scene as data: what the scene file says, every key, defaults filled in (interfaces: docs/scene.md).
+// A scene as data: what the scene file says, every key, defaults filled in (interfaces:
+// docs/use/scene-files.md).
 #pragma once
 
 #include "sim/scene/force_keys.h"

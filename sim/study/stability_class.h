@@ -25,7 +25,7 @@ inline const char* name_of(Stability s) {
   return stability_names[static_cast<std::size_t>(s)];
 }
 
-/// Borders between classes; docs/study-files.md prints them.
+/// Borders between classes; docs/use/study-files.md prints them.
 inline constexpr double gain_factor = 3; ///< of energy, from the third quarter of the steps to the last
 inline constexpr double most_of = 0.5;   ///< a share above this is "mostly"
 inline constexpr std::uint64_t stall_sweeps = 1;

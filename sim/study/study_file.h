@@ -1,4 +1,4 @@
-// A study: a scene and an array, and axes along which their keys vary (docs/study-files.md).
+// A study: a scene and an array, and axes along which their keys vary (docs/use/study-files.md).
 #pragma once
 
 #include "sim/input/input_error.h"

@@ -62,6 +62,10 @@ Truth kept(const fs::path& stem) {
 
 } // namespace
 
+void TruthStore::expect_known(const scene::Scene& scene) {
+  rivals::surroundings_of(scene);
+}
+
 Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                      const std::vector<double>& times) const {
   const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);

@@ -12,6 +12,8 @@ class TruthStore {
  public:
   explicit TruthStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
+  /// Throws input::InputError for a scene whose exact motion nobody can compute.
+  static void expect_known(const scene::Scene& scene);
   /// At each of the times, ascending, s; empty where SUNDIALS gives up.
   Truth at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
            const std::vector<double>& times) const;

@@ -29,7 +29,7 @@ void expect(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("the Verilog models need ") + what);
 }
 
-/// Places between the formats, as docs/datapath.md has them.
+/// Places between the formats, as docs/hardware/datapath.md has them.
 std::string numbers(const spec::ArraySpec& array, std::size_t taps) {
   const spec::Formats& f = array.formats;
   const spec::NumberFormat sum = spec::accumulator_format(array, taps);

@@ -5,6 +5,8 @@
 #include "tests/bench/flag_network.h"
 #include "tests/bench/sc_fixed_array.h"
 
+#include "place.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <sysc/tracing/sc_tracing_ids.h>

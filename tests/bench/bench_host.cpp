@@ -6,6 +6,8 @@
 #include "sim/run/run_files.h"
 #include "tests/bench/null_array.h"
 
+#include "place.h"
+
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -62,7 +64,7 @@ class HostRun {
 
   void run() {
     levels::ArrayMotion motion(inputs_->scene, *mesh_, inputs_->array, *array_, false);
-    const run::RunFacts facts{*inputs_, "systemc", true, ""};
+    const run::RunFacts facts{*inputs_, &levels::level_named("systemc", ""), ""};
     run::RunFiles files(results_folder(), facts, *mesh_, motion);
     run::RunResult result;
     for (std::uint64_t k = 0; k < steps_; ++k) {

@@ -1,8 +1,10 @@
 #include "tests/bench/bench_networks.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/scene/scene_file.h"
 #include "sim/levels/built_mesh.h"
+#include "sim/scene/scene_file.h"
+
+#include "place.h"
 
 #include <stdexcept>
 

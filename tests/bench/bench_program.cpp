@@ -1,6 +1,8 @@
 // The program as people start it: wall time, processor time and peak memory of `hopmesh run` as a child
 // process. A program of its own without SystemC, because a child's peak memory counts its parent's until
 // exec.
+#include "place.h"
+
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
 

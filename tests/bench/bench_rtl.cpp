@@ -5,6 +5,8 @@
 #include "tests/bench/flag_network.h"
 #include "tests/bench/verilated_flag.h"
 
+#include "place.h"
+
 #include <cstdlib>
 
 namespace hopmesh::bench {

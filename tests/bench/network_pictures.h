@@ -1,4 +1,4 @@
-// The pictures of docs/networks.md, made by the program's own results.
+// The pictures of docs/findings/problem-set.md, made by the program's own results.
 #pragma once
 
 #include "tests/bench/problem_runs.h"

@@ -1,5 +1,5 @@
-// The problem set in one table, for docs/networks.md: the program at every level beside answers that no
-// neuron found, and the pictures of that page. `problem_table PROGRAM FOLDER [pictures|table]`
+// The problem set in one table, for docs/findings/problem-set.md: the program at every level beside answers
+// that no neuron found, and the pictures of that page. `problem_table PROGRAM FOLDER [pictures|table]`
 #include "sim/files/output_file.h"
 #include "tests/bench/network_pictures.h"
 #include "tests/support/box_solver.h"

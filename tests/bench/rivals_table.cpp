@@ -1,4 +1,5 @@
-// The rivals' figures against the measured anchors (docs/rivals.md, Speed): from the file of bench_rivals.
+// The rivals' figures against the measured anchors, from the file of bench_rivals
+// (docs/findings/array-against-integrators.md, Speed).
 #include "tests/bench/results.h"
 
 #include <fmt/format.h>

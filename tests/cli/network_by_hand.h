@@ -1,5 +1,5 @@
-// The network of a step, written anew from docs/theory.md, sections 1 and 2, with plain loops: what the files
-// of `hopmesh network` are held to. Dense, over all nodes; rows of pinned nodes stay empty.
+// The network of a step, written anew from docs/method/theory.md, sections 1 and 2, with plain loops: what
+// the files of `hopmesh network` are held to. Dense, over all nodes; rows of pinned nodes stay empty.
 #pragma once
 
 #include <array>

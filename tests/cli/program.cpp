@@ -1,6 +1,8 @@
 // fork, pipes or a pseudo-terminal, exec, and listening to both streams until they close.
 #include "tests/cli/program.h"
 
+#include "place.h"
+
 #include <cerrno>
 #include <chrono>
 #include <csignal>

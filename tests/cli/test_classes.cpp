@@ -25,7 +25,7 @@ class CliClass : public Cli {
   int studies_ = 0;
 };
 
-/// The stiffest wave of the scene `chain`: docs/scene.md.
+/// The stiffest wave of the scene `chain`: docs/use/scene-files.md.
 double omega() {
   return 2 * std::sqrt(200 / 0.1) * std::sin(19 * std::acos(-1.0) / 42);
 }

@@ -1,4 +1,4 @@
-// hopmesh compare: exit codes and figures. What it says of levels that differ: tests/study/test_compare.cpp.
+// hopmesh compare: exit codes and figures. What it says of levels that differ: tests/cosim/test_compare.cpp.
 #include "tests/cli/cli_test.h"
 
 #include <regex>

@@ -1,5 +1,7 @@
-// Deformable meshes from OBJ files (docs/deformable-meshes.md): each shipped scene against a Newton solver
-// that shares nothing with the array, against the balance of forces at rest, and level against level.
+// Deformable meshes from OBJ files (docs/findings/cloth-and-solids.md): each shipped scene against a Newton
+// solver that shares nothing with the array, against the balance of forces at rest, and level against level.
+#include "place.h"
+
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
 #include "tests/cli/scene_motion.h"

@@ -1,6 +1,8 @@
-// docs/scene.md, array.md, results.md and networks.md against the program: keys, defaults, presets, files,
-// columns, flags.
+// Pages of docs/use/ against the program (scene files, array files, the results folder, networks of one's
+// own): keys, defaults, presets, files, columns, flags.
 #include "tests/cli/cli_test.h"
+
+#include "place.h"
 
 #include <regex>
 #include <set>
@@ -82,7 +84,7 @@ TEST_F(CliDocs, EveryKeyOfASceneIsOnItsPageWithItsDefault) {
   write_text(at("s.toml"), "mesh.grid = {}\n");
   std::filesystem::copy(HOPMESH_SOURCE_DIR "/tests/scene/good/tent.obj", at("tent.obj"));
   write_text(at("f.toml"), "mesh.file = \"tent.obj\"\nforce.wind = [0, 0, 0]\n");
-  const std::string text = page("scene.md");
+  const std::string text = page("use/scene-files.md");
   for (const auto& [key, value] : scene_and_array("s.toml").first)
     EXPECT_EQ(default_in(text, key), key == "name" ? "the file's name" : '`' + value + '`') << key;
   for (const auto& [key, value] : scene_and_array("f.toml").first)
@@ -93,7 +95,7 @@ TEST_F(CliDocs, EveryKeyOfASceneIsOnItsPageWithItsDefault) {
 }
 
 TEST_F(CliDocs, EveryKeyOfAnArrayIsOnItsPageWithItsDefault) {
-  const std::string text = page("array.md");
+  const std::string text = page("use/array-files.md");
   for (const auto& [key, value] : scene_and_array("two-nodes").second) {
     if (key == "name") continue;
     EXPECT_EQ(default_in(text, key), '`' + value + '`') << key;
@@ -102,7 +104,7 @@ TEST_F(CliDocs, EveryKeyOfAnArrayIsOnItsPageWithItsDefault) {
 }
 
 TEST_F(CliDocs, EveryKeyOnAPageIsOneOfTheProgram) {
-  for (const char* name : {"scene.md", "array.md"})
+  for (const char* name : {"use/scene-files.md", "use/array-files.md"})
     for (const std::string& key : named_in(page(name), "Keys")) {
       if (key == "preset") continue;                                        // of array files alone
       const Finished f = hopmesh("info two-nodes --set " + key + "=[[1]]"); // no key has such a value
@@ -113,7 +115,7 @@ TEST_F(CliDocs, EveryKeyOnAPageIsOneOfTheProgram) {
 }
 
 TEST_F(CliDocs, PresetsAreWhatTheArrayPageSays) {
-  const auto rows = rows_of(page("array.md"), "Presets");
+  const auto rows = rows_of(page("use/array-files.md"), "Presets");
   const auto plain = scene_and_array("two-nodes").second;
   for (std::size_t column = 1; column <= 4; ++column) {
     const std::string preset = split(rows[0].at(column), '`')[1];
@@ -128,7 +130,7 @@ TEST_F(CliDocs, PresetsAreWhatTheArrayPageSays) {
 }
 
 TEST_F(CliDocs, EveryShippedSceneIsOnTheScenePage) {
-  const auto named = named_in(page("scene.md"), "Shipped scenes");
+  const auto named = named_in(page("use/scene-files.md"), "Shipped scenes");
   std::set<std::string> files;
   for (const std::string& file : names_in(HOPMESH_SOURCE_DIR "/sim/scenes"))
     if (std::filesystem::path(file).extension() == ".toml") files.insert(std::filesystem::path(file).stem());
@@ -138,18 +140,24 @@ TEST_F(CliDocs, EveryShippedSceneIsOnTheScenePage) {
 TEST_F(CliDocs, ExamplesOfScenesAndArraysAreGood) {
   static const std::regex block("```toml\n([^`]*)```");
   std::smatch scene, array;
-  const std::string of_scene = page("scene.md"), of_array = page("array.md");
+  const std::string of_scene = page("use/scene-files.md"), of_array = page("use/array-files.md");
   ASSERT_TRUE(std::regex_search(of_scene, scene, block) && std::regex_search(of_array, array, block));
   write_text(at("s.toml"), scene[1]);
   write_text(at("a.toml"), array[1]);
   EXPECT_EQ(fault_of_results(results_of("s.toml --array a.toml --steps 3", "r"), 3), "");
 }
 
-// In order, in one folder, as a reader types them; "exit 1" in a comment says that it ends so.
+TEST_F(CliDocs, TheExampleOfVectorsIsWhatTheProgramWrites) {
+  good("vectors two-nodes --step 3 --out two-nodes.txt");
+  EXPECT_THAT(page("use/test-vectors.md"),
+              HasSubstr("```text\n" + content_of(at("two-nodes.txt")) + "```\n"));
+}
+
+// In order, in one folder, as a reader types them; "exit 1" in a comment says that a command ends so.
 TEST_F(CliDocs, CommandsOfTheNetworksPageRun) {
   static const std::regex command("    hopmesh ([^#]*[^# ]) *(#.*)?");
   int tried = 0;
-  for (const std::string& line : lines_of(page("networks.md"))) {
+  for (const std::string& line : lines_of(page("use/own-networks.md"))) {
     std::smatch part;
     if (!std::regex_match(line, part, command)) continue;
     const bool refuses = part[2].str().find("exit 1") != std::string::npos;
@@ -163,12 +171,12 @@ TEST_F(CliDocs, CommandsOfTheNetworksPageRun) {
 
 TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
   good("solve cut-16 --out o");
-  const std::string text = page("networks.md");
+  const std::string text = page("use/own-networks.md"), problems = page("findings/problem-set.md");
   for (const std::string& name : names_in(at("o"))) EXPECT_THAT(text, HasSubstr('`' + name + '`'));
   for (const std::string& name : read_table(at("o/solve.csv")).header)
     EXPECT_THAT(text, HasSubstr('`' + name + '`'));
   for (const std::string& line : lines_of(good("problem").out))
-    EXPECT_THAT(text, HasSubstr('`' + split(line, ' ')[0] + '`'));
+    EXPECT_THAT(problems, HasSubstr('`' + split(line, ' ')[0] + '`'));
   static const std::regex flag("(--[a-z]+)");
   const std::string help = good("solve --help").out;
   for (std::sregex_iterator at(help.begin(), help.end(), flag), end; at != end; ++at) {
@@ -179,7 +187,7 @@ TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
 
 TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
   const auto folder = results_of("two-nodes --steps 1", "r");
-  const std::string text = page("results.md");
+  const std::string text = page("use/results-folder.md");
   for (const std::string& name : names_in(folder)) EXPECT_THAT(text, HasSubstr("| `" + name + "` |"));
   EXPECT_EQ(named_in(text, "steps.csv"), read_table(folder / "steps.csv").header);
   const auto expect_keys = [&](const nlohmann::json& json, const std::string& heading) {

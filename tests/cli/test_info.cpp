@@ -1,4 +1,5 @@
-// hopmesh info: numbers counted by hand and by the formulas of docs/cycles.md; --toml gives the files back.
+// hopmesh info: numbers counted by hand and by the formulas of docs/hardware/cycles.md; --toml gives the
+// files back.
 #include "tests/cli/cli_test.h"
 
 #include <regex>

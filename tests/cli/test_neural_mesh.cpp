@@ -1,5 +1,8 @@
-// The uses of Neural Mesh (docs/neural-mesh.md): each shipped scene against its closed form, at every level.
+// The uses of Neural Mesh (docs/findings/trees-surfaces-snakes.md): each shipped scene against its closed
+// form, at every level.
 #include "tests/cli/cli_test.h"
+
+#include "place.h"
 
 #include <cmath>
 #include <fstream>
@@ -70,7 +73,7 @@ struct Tree {
   double optimum;
 };
 // 3-4-5: half the squares of the sides and 2 sqrt 3 times the area. Ladder: Chung and Graham 1978, held
-// against a search of its own in tests/reference/test_reference_tension.cpp.
+// against a search of its own in tests/reference/test_tension.cpp.
 const std::vector<Tree> trees = {{"steiner-3", std::sqrt(25 + 12 * root3)},
                                  {"steiner-4", 1 + root3},
                                  {"steiner-6", std::sqrt(std::pow(3 * (1 + root3 / 2) - 1, 2) + 0.25)}};

@@ -1,6 +1,8 @@
 // What stands in the files of a run: shapes, columns, ranges, totals, and that a manifest repeats its run.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

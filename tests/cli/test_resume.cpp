@@ -2,6 +2,8 @@
 // one, and what is no checkpoint of it is refused with the folder left as it was.
 #include "tests/cli/resume_test.h"
 
+#include "place.h"
+
 #include <csignal>
 
 namespace hopmesh::tests {

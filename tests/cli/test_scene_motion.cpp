@@ -119,7 +119,7 @@ TEST_F(SceneMotion, AThrownNetFliesAsAStone) {
   }
 }
 
-// Half a second at 16 bits on the links: 1.23 m of fall, and what docs/scene.md promises.
+// Half a second at 16 bits on the links: 1.23 m of fall, and what docs/use/scene-files.md promises.
 TEST_F(SceneMotion, FreeNetKeepsItsMomentumToTheArraysWords) {
   const double coarse = centre_error(positions("free-net"));
   EXPECT_LT(coarse, 2e-4);

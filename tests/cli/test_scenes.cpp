@@ -1,6 +1,8 @@
 // Every shipped scene runs, at reference and systemc.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <cmath>
 
 namespace hopmesh::tests {

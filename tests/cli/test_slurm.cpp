@@ -1,6 +1,8 @@
 // hopmesh sweep --executor slurm on a real cluster of one node, started here on loopback by the current user.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <csignal>
 #include <fstream>
 #include <unistd.h>

@@ -1,6 +1,8 @@
 // hopmesh vectors: files for cores that are not ours, filled in by one (tests/other_core), and judged.
 #include "tests/cli/cli_test.h"
 
+#include "place.h"
+
 #include <regex>
 
 namespace hopmesh::tests {

@@ -4,7 +4,7 @@
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
 #include "sim/input/input_error.h"
-#include "tests/levels/soft_array.h"
+#include "tests/support/soft_array.h"
 
 #include <csignal>
 #include <gmock/gmock.h>

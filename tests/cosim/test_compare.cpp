@@ -1,8 +1,8 @@
 // Levels beside each other, one of them with a fault to order.
 #include "sim/cosim/compare.h"
 #include "sim/levels/reference_motion.h"
-#include "tests/levels/small_scenes.h"
-#include "tests/levels/soft_array.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/soft_array.h"
 
 #include <deque>
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ class Compare : public ::testing::Test {
         contenders, mesh, array, steps, [this](const levels::StepRow& row) { seen.push_back(row.step); },
         stop);
   }
-  std::string text(const cosim::Comparison& c) const { return run::text_of(c, "grid", array); }
+  std::string text(const cosim::Comparison& c) const { return cosim::text_of(c, "grid", array); }
 
   scene::Scene scene = grid_scene(2, 3);
   spec::ArraySpec array = *spec::preset("descent");

@@ -1,8 +1,8 @@
 // Two arrays, one of them with a fault: where they part, to the sweep, cycle, neuron and inputs.
 #include "firmware/registers.h"
 #include "sim/cosim/explain.h"
-#include "tests/levels/small_scenes.h"
-#include "tests/levels/soft_array.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/soft_array.h"
 
 #include <gtest/gtest.h>
 

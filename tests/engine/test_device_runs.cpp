@@ -64,7 +64,7 @@ struct Host {
 class EngineDriverBatch : public testing::TestWithParam<int> {};
 
 TEST_P(EngineDriverBatch, FromDoublesToDoubles) {
-  for (int k = 0; k < 75; ++k) { // the cases of tests/cosim/test_cosim_driver.cpp
+  for (int k = 0; k < 75; ++k) { // the cases of tests/cosim/test_driver.cpp
     DriverCase one(static_cast<std::uint64_t>(9000 + 75 * GetParam() + k));
     Host host(one.job.array, one.job.topology);
     one.relax_and_compare(host.bus);

@@ -1,7 +1,7 @@
 // The array in somebody else's platform: a host that writes a network of two cells into it over TLM-2.0,
 // starts it, sleeps until the interrupt, and reads the outputs back. What each register means:
-// docs/registers.md. A real host runs the driver in firmware/ instead of doing this by hand; here every
-// transfer is meant to be seen.
+// docs/hardware/registers.md. A real host runs the driver in firmware/ instead of doing this by hand; here
+// every transfer is meant to be seen.
 #include "firmware/registers.h"
 #include "rtl_model/spec/array_rules.h"
 #include "rtl_model/systemc/device.h"

@@ -1,20 +1,20 @@
 // Base64 against RFC 4648's own examples, and against a decoder that knows only the alphabet.
 #include "sim/files/base64.h"
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::record {
+namespace hopmesh::files {
 namespace {
 
 template <class Fill> std::string written(Fill fill) {
-  const Folder folder;
+  const tests::Folder folder;
   OutputFile file(folder / "digits.txt");
   Base64Writer writer(file);
   fill(writer);
   writer.end();
   file.commit();
-  return content_of(folder / "digits.txt");
+  return tests::content_of(folder / "digits.txt");
 }
 
 std::string encoded(const std::string& text) {
@@ -68,4 +68,4 @@ TEST(Base64, PiecesAreOneText) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::files

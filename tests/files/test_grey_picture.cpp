@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::record {
+namespace hopmesh::files {
 namespace {
 
 using ::testing::ElementsAre;
@@ -56,4 +56,4 @@ TEST(GreyPicture, SaysWhatIsNone) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::files

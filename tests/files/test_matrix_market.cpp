@@ -1,7 +1,7 @@
 // Matrix Market files: the same bits back, what other programs write, and broken files told in a line.
 #include "sim/files/matrix_market.h"
 #include "sim/input/input_error.h"
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <cmath>
 #include <cstring>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace hopmesh::record {
+namespace hopmesh::files {
 namespace {
 
 using testing::HasSubstr;
@@ -47,7 +47,7 @@ class MatrixMarket : public testing::Test {
     return "read";
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 };
 
 /// Any bits that are a finite double.
@@ -201,4 +201,4 @@ TEST_F(MatrixMarket, BrokenFilesAreReadWholeOrRefusedInOneLine) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::files

@@ -1,7 +1,7 @@
 // The VCD writer, read back by a reader of its own.
 #include "sim/files/vcd.h"
-#include "tests/files/folder.h"
-#include "tests/systemc/vcd.h"
+#include "tests/support/folder.h"
+#include "tests/support/vcd.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 class VcdWriter : public testing::Test {
  protected:
-  record::Folder around;
+  Folder around;
 };
 
 TEST_F(VcdWriter, WritesScopesWidthsAndTimes) {

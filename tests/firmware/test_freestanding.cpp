@@ -1,5 +1,7 @@
 // The firmware asks nothing of its platform but sqrt and the memory functions that every compiler may call;
 // it has no heap and no state of its own.
+#include "place.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -12,7 +14,7 @@ namespace {
 /// Lines of `nm ARGUMENTS` on the firmware's archive, as (type, symbol).
 std::set<std::pair<std::string, std::string>> symbols(const std::string& arguments) {
   std::set<std::pair<std::string, std::string>> found;
-  FILE* pipe = popen(("nm -P " + arguments + " " FIRMWARE_LIBRARY).c_str(), "r");
+  FILE* pipe = popen(("nm -P " + arguments + " " HOPMESH_FIRMWARE_LIBRARY).c_str(), "r");
   if (pipe == nullptr) return found;
   char line[1024];
   while (std::fgets(line, sizeof line, pipe)) {
@@ -35,7 +37,7 @@ TEST(Freestanding, NeedsNothingButSqrtAndMemoryFunctions) {
   const std::set<std::string> allowed{"sqrt", "memcpy", "memset", "memmove", "memcmp"};
   std::set<std::string> defined;
   for (const auto& [type, symbol] : symbols("--defined-only")) defined.insert(symbol);
-  ASSERT_TRUE(defined.count("hm_step")) << "nm did not read " FIRMWARE_LIBRARY;
+  ASSERT_TRUE(defined.count("hm_step")) << "nm did not read " HOPMESH_FIRMWARE_LIBRARY;
   for (const auto& [type, symbol] : symbols("--undefined-only"))
     EXPECT_TRUE(allowed.count(symbol) || defined.count(symbol) || of_the_compiler(symbol)) << symbol;
 }

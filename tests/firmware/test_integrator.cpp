@@ -10,7 +10,7 @@ extern "C" {
 namespace hopmesh::tests {
 namespace {
 
-/// The rule of docs/theory.md, section 3, in double and in number order, on the firmware's own layout.
+/// The rule of docs/method/theory.md, section 3, in double and in number order, on the firmware's own layout.
 int relax_in_double(void*, const hm_mesh* m, hm_network* n, double threshold, std::uint32_t max_sweeps,
                     hm_relaxation* result) {
   *result = {};

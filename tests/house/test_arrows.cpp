@@ -17,31 +17,41 @@ const std::map<std::string, Rooms> allowed = {
     {"firmware", {}},
     {"rtl_model/spec", {}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
-    {"sim/scene", {"rtl_model/spec"}},
+    {"sim/input", {"rtl_model/spec"}},
+    {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},
-    {"sim/rivals", {"sim/scene"}},
+    {"sim/rivals", {"sim/input", "sim/scene"}},
     {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h"}},
-    {"sim/record", {"sim/scene/input_error.h", "sim/scene/whole_file.h"}},
-    {"sim/problems", {"sim/record"}},
-    {"sim/cosim", {"rtl_model/spec", "firmware/registers.h", "firmware/bus.h", "sim/scene", "sim/record"}},
-    {"sim/study", {"rtl_model/spec", "firmware", "sim/scene", "sim/reference", "sim/record", "sim/cosim"}},
+    {"sim/files", {"sim/input"}},
+    {"sim/pictures", {"sim/files"}},
+    {"sim/levels",
+     {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/input", "sim/scene", "sim/reference",
+      "sim/rivals", "sim/engine", "sim/files"}},
+    {"sim/run", {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels"}},
+    {"sim/cosim",
+     {"rtl_model/spec", "firmware", "sim/input", "sim/scene", "sim/files", "sim/levels", "sim/run"}},
+    {"sim/networks",
+     {"rtl_model/spec", "firmware", "sim/input", "sim/reference", "sim/files", "sim/levels", "sim/run",
+      "sim/cosim"}},
+    {"sim/study",
+     {"rtl_model/spec", "sim/input", "sim/scene", "sim/rivals", "sim/files", "sim/levels", "sim/run"}},
     {"sim/cli",
-     {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/scene", "sim/reference", "sim/rivals",
-      "sim/problems", "sim/engine", "sim/record", "sim/cosim", "sim/study"}},
+     {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels", "sim/run",
+      "sim/cosim", "sim/networks", "sim/study"}},
 };
 
 // Which rooms may know a library from outside. Firmware knows none but <stdint.h>.
 const std::vector<std::pair<std::regex, Rooms>> libraries = {
-    {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/cli"}},
-    {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals"}},
+    {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/levels", "sim/cli"}},
+    {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals", "sim/networks"}},
     {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
-    {std::regex("toml.*"), {"sim/scene"}},
-    {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/record"}},
+    {std::regex("toml.*"), {"sim/input"}},
+    {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/files", "sim/pictures"}},
 };
 
 // Written by CMake when the build is configured.
-const std::set<std::string> generated = {"version.h"};
+const std::set<std::string> generated = {"version.h", "place.h"};
 
 std::string room_of(const std::string& path) {
   static const std::regex shape("(firmware|(?:rtl_model|sim)/[^/]+|tests)/.*");
@@ -98,7 +108,7 @@ TEST(Arrows, theTableRefusesWhatItShould) {
   EXPECT_TRUE(may_include("rtl_model/systemc", "firmware/registers.h"));
   EXPECT_FALSE(may_include("sim/reference", "rtl_model/systemc/device.h"));
   EXPECT_FALSE(may_include("sim/study", "sim/cli/options.h"));
-  EXPECT_FALSE(may_include("sim/record", "tests/support/dut.h"));
+  EXPECT_FALSE(may_include("sim/files", "tests/support/dut.h"));
   EXPECT_FALSE(may_know("sim/study", "systemc"));
   EXPECT_FALSE(may_know("firmware", "stdlib.h"));
   EXPECT_TRUE(may_know("sim/study", "vector"));

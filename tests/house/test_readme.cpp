@@ -1,6 +1,8 @@
-// What README and docs promise: links lead somewhere, commands run, every flag of the program is tried or
-// told.
+// What README and the pages of docs/use promise: commands run, the tour ends in a success, every flag of the
+// program is tried or told.
 #include "tests/house/tree.h"
+
+#include "place.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,31 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- links
-
-TEST(Readme, linksLeadSomewhere) {
-  const std::regex link("\\]\\(([^)#]+)(#[^)]*)?\\)");
-  for (const TreeFile& page : tree_files({".md"}))
-    for (std::sregex_iterator at(page.text.begin(), page.text.end(), link), end; at != end; ++at) {
-      const std::string target = (*at)[1];
-      if (target.find("://") != std::string::npos) continue;
-      EXPECT_TRUE(fs::exists(fs::path(HOPMESH_SOURCE_DIR) / fs::path(page.path).parent_path() / target))
-          << page.path << ": " << target;
-    }
-}
-
 // ---- flags
 
-std::vector<std::string> matches(const std::string& text, const char* pattern) {
-  const std::regex shape(pattern);
-  std::vector<std::string> found;
-  for (std::sregex_iterator at(text.begin(), text.end(), shape), end; at != end; ++at)
-    found.push_back((*at)[1]);
-  return found;
+// README and docs/use: what a user reads and types.
+std::vector<TreeFile> pages_of_users() {
+  std::vector<TreeFile> pages;
+  for (const TreeFile& page : tree_files({".md"}))
+    if (page.path == "README.md" || starts_with(page.path, "docs/use/")) pages.push_back(page);
+  return pages;
 }
 
 std::string all_words_of_users() {
-  std::string words = text_of("README.md");
+  std::string words;
+  for (const TreeFile& page : pages_of_users()) words += page.text;
   for (const TreeFile& file : tree_files({".cpp", ".h"}))
     if (starts_with(file.path, "tests/cli/")) words += file.text;
   return words;
@@ -57,7 +47,7 @@ TEST(Readme, everyFlagIsTriedOrTold) {
   for (const std::string& verb : verbs())
     for (const std::string& flag : matches(help_of(verb), "\n  (?:-\\w,)?(--[\\w-]+)"))
       EXPECT_TRUE(std::regex_search(words, std::regex(flag + "(?![\\w-])")))
-          << "hopmesh " << verb << " " << flag << ": in no test of tests/cli and not in README.md";
+          << "hopmesh " << verb << " " << flag << ": in no test of tests/cli and on no page of users";
 }
 
 // ---- commands
@@ -108,20 +98,29 @@ class Commands : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void expect_to_run(const std::string& command) {
+  std::string expect_to_run(const std::string& command) {
     const Answer answer =
         run("cd " + folder_.string() + " && export PATH=$PWD/build:$PATH && " + shortened(command));
     EXPECT_EQ(answer.exit_code, 0) << command << "\n" << answer.text;
+    return answer.text;
   }
 
   fs::path folder_;
 };
 
-TEST_F(Commands, ofTheReadmeRun) {
+TEST_F(Commands, ofThePagesOfUsersRun) {
   int tried = 0;
-  for (const std::string& command : shell_commands(text_of("README.md")))
-    if (runs_the_program(command)) ++tried, expect_to_run(command);
-  EXPECT_GT(tried, 0) << "no command found: is the test blind?";
+  for (const TreeFile& page : pages_of_users())
+    for (const std::string& command : shell_commands(page.text))
+      if (runs_the_program(command)) ++tried, expect_to_run(command);
+  EXPECT_GE(tried, 15) << "fewer than the tour has: is the test blind?";
+}
+
+TEST_F(Commands, ofTheTourAreFifteenAndEndInASuccess) {
+  const std::vector<std::string> tour = shell_commands(text_of("docs/use/tour.md"));
+  ASSERT_EQ(tour.size(), 15u);
+  const std::string told = expect_to_run(tour.back());
+  EXPECT_NE(told.find(": a solution"), std::string::npos) << told;
 }
 
 TEST_F(Commands, ofTheHelpRun) {

@@ -1,4 +1,4 @@
-// docs/registers.md shows the register table as it is.
+// docs/hardware/registers.md shows the register table as it is.
 #include "firmware/registers.h"
 #include "tests/house/register_tables.h"
 #include "tests/house/tree.h"
@@ -10,7 +10,7 @@ namespace {
 
 TEST(RegistersPage, showsTheTableAsItIs) {
   const std::string page = text_of(registers_page);
-  EXPECT_EQ(page, with_tables(page)) << "stale: run build-check/print_registers docs/registers.md";
+  EXPECT_EQ(page, with_tables(page)) << "stale: run build-check/print_registers docs/hardware/registers.md";
 }
 
 TEST(RegistersPage, showsEveryRegisterAndWindow) {

@@ -1,6 +1,8 @@
 // Sizes of files, sources that no build knows, paths and addresses that belong to one machine.
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <gtest/gtest.h>
 #include <regex>
 

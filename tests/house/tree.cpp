@@ -1,9 +1,12 @@
 #include "tests/house/tree.h"
 
+#include "place.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <sys/wait.h>
 
@@ -36,7 +39,8 @@ std::string text_of(const std::string& path) {
 
 std::vector<TreeFile> tree_files(const std::vector<std::string>& endings) {
   std::vector<TreeFile> files;
-  for (const auto& entry : fs::directory_iterator(root)) take(entry, endings, files);
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().filename() != ".git") take(entry, endings, files); // a file where the tree is a worktree
   for (const char* room : {".ci", "docs", "firmware", "rtl_model", "sim", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(root / room)) take(entry, endings, files);
   std::sort(files.begin(), files.end(), [](const TreeFile& a, const TreeFile& b) { return a.path < b.path; });
@@ -48,6 +52,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex shape(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), shape), end; at != end; ++at)
+    found.push_back((*at)[1]);
+  return found;
 }
 
 bool starts_with(const std::string& text, const std::string& start) {

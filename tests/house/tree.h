@@ -19,6 +19,8 @@ std::vector<TreeFile> tree_files(const std::vector<std::string>& endings = {});
 std::string text_of(const std::string& path);
 
 std::vector<std::string> lines_of(const std::string& text);
+/// The first group of a pattern wherever a text matches it, in order.
+std::vector<std::string> matches(const std::string& text, const char* pattern);
 bool starts_with(const std::string& text, const std::string& start);
 
 /// What a shell command prints on stdout and stderr, and how it ended.

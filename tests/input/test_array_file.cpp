@@ -7,11 +7,11 @@ namespace {
 
 spec::ArraySpec array_of(const std::string& text) {
   const TempFolder temp;
-  return read_inputs(folder + "good/every_key.toml", temp.write("small.toml", text), {}).array;
+  return scene::read_inputs(folder + "good/every_key.toml", temp.write("small.toml", text), {}).array;
 }
 
 spec::ArraySpec array_named(const std::string& name) {
-  return read_inputs(folder + "good/every_key.toml", name, {}).array;
+  return scene::read_inputs(folder + "good/every_key.toml", name, {}).array;
 }
 
 TEST(ArrayFile, readsEveryKey) {
@@ -35,10 +35,10 @@ TEST(ArrayFile, readsEveryKey) {
 
 TEST(ArrayFile, presetsAreThere) {
   for (const spec::ArraySpec& a : spec::presets()) {
-    EXPECT_EQ(array_text(array_named(a.name)), array_text(a));
+    EXPECT_EQ(scene::array_text(array_named(a.name)), scene::array_text(a));
     EXPECT_EQ(array_named(a.name).name, a.name);
   }
-  EXPECT_EQ(array_text(array_named("")), array_text(spec::default_array()));
+  EXPECT_EQ(scene::array_text(array_named("")), scene::array_text(spec::default_array()));
 }
 
 TEST(ArrayFile, startsFromItsPresetAndIsNamedAfterItself) {

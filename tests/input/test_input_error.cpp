@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::scene {
+namespace hopmesh::input {
 namespace {
 
 std::string sentence(const std::string& file, int line, const std::string& key, const std::string& found,
@@ -59,4 +59,4 @@ TEST(InQuotes, showsBytesAsPrintableText) {
 }
 
 } // namespace
-} // namespace hopmesh::scene
+} // namespace hopmesh::input

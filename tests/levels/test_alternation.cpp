@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::levels {
 namespace {
 
 using reference::Vector;
@@ -21,7 +21,7 @@ reference::Network two_neurons(double own, double other, double bias) {
   return network;
 }
 
-// docs/theory.md, section 3: W = [[0, -1], [-1, 0]] flips (1, 1) to (-1, -1) and back for ever.
+// docs/method/theory.md, section 3: W = [[0, -1], [-1, 0]] flips (1, 1) to (-1, -1) and back for ever.
 TEST(Alternation, IsOneForTheCycleOfTwo) {
   EXPECT_EQ(alternation(two_neurons(0, -1, 0), together, Vector::Ones(2)), 1);
 }
@@ -48,4 +48,4 @@ TEST(Alternation, IsNoneForASwingThatDies) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::levels

@@ -1,8 +1,8 @@
 // Firmware, driver, bus and a software array beside the double reference.
 #include "sim/levels/array_motion.h"
 #include "sim/levels/reference_motion.h"
-#include "tests/levels/small_scenes.h"
-#include "tests/levels/soft_array.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/soft_array.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // A scene's mesh as the array and the firmware see it.
 #include "sim/levels/reference_check.h"
-#include "tests/levels/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::levels {
 namespace {
 
 /// Black on the left, white on the right of a picture of 41 x 21 pixels; the edge runs through column 20.
@@ -66,4 +66,4 @@ TEST_F(ImageForceTest, IsInProportionBetweenPixelsAndNothingOutside) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::levels

@@ -8,16 +8,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::solvers::testing {
 
-namespace quadratic = solvers;
-using solvers::Problem;
-using solvers::Vector;
 using reference::testing::Random;
 
 /// Its neurons stand for two components in turn.
 inline Problem problem_of(const Eigen::MatrixXd& W, const Vector& I, const Vector& start) {
-  const solvers::Weights sparse = W.sparseView();
+  const Weights sparse = W.sparseView();
   std::vector<std::uint32_t> component;
   for (Eigen::Index i = 0; i < I.size(); ++i) component.push_back(i % 2);
   return {sparse, I, start, reference::testing::coloured(sparse), component};
@@ -26,7 +23,7 @@ inline Problem problem_of(const Eigen::MatrixXd& W, const Vector& I, const Vecto
 /// One of random signs and curvatures, and a start anywhere.
 inline Problem random_problem(Random& random, Eigen::Index n) {
   const auto network = reference::testing::random_network(random, n);
-  return solvers::reached(problem_of(network.W, network.I, reference::testing::random_point(random, n)));
+  return reached(problem_of(network.W, network.I, reference::testing::random_point(random, n)));
 }
 
 /// H = -W positive definite; I pulls `pull` times as hard as a curvature of 1 holds.
@@ -71,11 +68,11 @@ inline Vector answer_by_faces(const Problem& p) {
 
 /// After so many sweeps.
 inline Vector after(const std::string& name, const Problem& problem, int sweeps, bool convex = true) {
-  const auto solver = solvers::make_solver(name, problem, convex);
+  const auto solver = make_solver(name, problem, convex);
   for (int k = 0; k < sweeps; ++k) solver->sweep();
   return solver->V();
 }
 
 inline const std::atomic<bool> never{false};
 
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::solvers::testing

@@ -5,21 +5,21 @@
 #include <gmock/gmock.h>
 #include <set>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::solvers::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-solvers::Course run(const std::string& name, const Problem& p, std::vector<double> gaps = {1e-6},
-                      std::uint64_t max_sweeps = 200000) {
-  return solvers::run_solver(name, p, solvers::best_answer(p), {std::move(gaps), max_sweeps}, never);
+Course run(const std::string& name, const Problem& p, std::vector<double> gaps = {1e-6},
+           std::uint64_t max_sweeps = 200000) {
+  return run_solver(name, p, best_answer(p), {std::move(gaps), max_sweeps}, never);
 }
 
 TEST(Quadratic, AnswersAreThoseOfEveryFace) {
   Random random(11);
   for (int k = 0; k < 60; ++k) {
     const Problem p = random_convex(random, 1 + k % 5, 4 * (k % 3));
-    const Vector V = solvers::best_answer(p).V;
+    const Vector V = best_answer(p).V;
     EXPECT_LT((V - answer_by_faces(p)).norm(), 1e-9) << k;
   }
 }
@@ -30,7 +30,7 @@ TEST(Quadratic, AnswersAreAtRest) {
   int bounded = 0;
   for (int k = 0; k < 40; ++k) {
     const Problem p = random_convex(random, 3 + 2 * k, k % 4);
-    const solvers::Answer answer = solvers::best_answer(p);
+    const Answer answer = best_answer(p);
     EXPECT_TRUE(answer.convex);
     EXPECT_LE(reference::kkt_violation({p.W, p.I}, answer.V), 1e-12);
     EXPECT_LE(answer.V.lpNorm<Eigen::Infinity>(), 1);
@@ -46,10 +46,10 @@ TEST(Quadratic, EverySolverComesToTheAnswer) {
   const std::set<std::string> may_fail{"jacobi", "hopfield_synchronous", "jacobi_damped"};
   for (int k = 0; k < 12; ++k) {
     const Problem p = random_convex(random, 10 + 5 * k, k % 3 == 0 ? 0.02 : k);
-    const solvers::Answer answer = solvers::best_answer(p);
+    const Answer answer = best_answer(p);
     const bool bounded = (answer.V.array().abs() == 1).any();
-    for (const std::string& name : solvers::solver_names()) {
-      const solvers::Course course = run(name, p);
+    for (const std::string& name : solver_names()) {
+      const Course course = run(name, p);
       if (name == "cholesky" && bounded) {
         EXPECT_THAT(course.failure, HasSubstr("a bound is active"));
       } else if (!may_fail.count(name)) {
@@ -70,14 +70,14 @@ TEST(Quadratic, OneByOneTheEnergyNeverRises) {
     for (const char* name : {"hopfield_sequential", "hopfield_coloured", "gauss_seidel", "sor_1.8_sequential",
                              "sor_1.8_by_component"})
       try {
-        const auto solver = solvers::make_solver(name, p, false);
+        const auto solver = make_solver(name, p, false);
         for (int sweep = 0; sweep < 20; ++sweep) {
           const double before = energy(p, solver->V());
           solver->sweep();
           EXPECT_LE(energy(p, solver->V()), before + 1e-12) << name << " in problem " << k;
           EXPECT_LE(solver->V().lpNorm<Eigen::Infinity>(), 1) << name;
         }
-      } catch (const solvers::Unfit& why) {
+      } catch (const Unfit& why) {
         EXPECT_TRUE(p.W.diagonal().maxCoeff() >= 0) << why.what();
       }
   }
@@ -89,9 +89,9 @@ TEST(Quadratic, TwoNeuronsAtOnceGoRoundForEver) {
       problem_of((Eigen::Matrix2d() << 0, -1, -1, 0).finished(), Vector::Zero(2), Vector::Ones(2));
   EXPECT_EQ(after("hopfield_synchronous", p, 1, false), Vector(-Vector::Ones(2)));
   EXPECT_EQ(after("hopfield_synchronous", p, 2, false), Vector(Vector::Ones(2)));
-  const solvers::Answer answer = solvers::best_answer(p); // one up, one down: -1, 2 below the start
+  const Answer answer = best_answer(p); // one up, one down: -1, 2 below the start
   EXPECT_DOUBLE_EQ(answer.start_gap, 2);
-  const solvers::Course lost = run("hopfield_synchronous", p);
+  const Course lost = run("hopfield_synchronous", p);
   EXPECT_FALSE(lost.reached[0]);
   EXPECT_THAT(lost.failure, HasSubstr("a 2-cycle after 2 sweeps at a gap of 1"));
   EXPECT_EQ(run("hopfield_sequential", p).reached[0]->sweeps, 1u);
@@ -100,10 +100,10 @@ TEST(Quadratic, TwoNeuronsAtOnceGoRoundForEver) {
 TEST(Quadratic, WhatNeedsConvexitySaysSo) {
   const Problem p = problem_of((Eigen::Matrix2d() << -1, 2, 2, -1).finished(), Vector::Constant(2, 0.1),
                                Vector::Constant(2, 0.1)); // along (1, 1) ever lower
-  const solvers::Race race = solvers::race(p, {{1e-3}, 5000}, never);
+  const Race race = solvers::race(p, {{1e-3}, 5000}, never);
   EXPECT_FALSE(race.answer.convex);
   EXPECT_LT((race.answer.V - Vector::Ones(2)).norm(), 1e-9);
-  for (const solvers::Course& course : race.courses) {
+  for (const Course& course : race.courses) {
     const bool needs = course.name.find("gradient") != std::string::npos ||
                        course.name.rfind("admm", 0) == 0 || course.name == "projected_newton" ||
                        course.name == "cholesky";
@@ -128,8 +128,8 @@ TEST(Quadratic, NobodyIsBelowTheBestFound) {
   for (int k = 0; k < 25; ++k) {
     const Problem p = random_problem(random, 4 + random.below(8));
     if (p.I.size() == 0) continue;
-    const solvers::Race race = solvers::race(p, {{1e-3, 1e-6}, 2000}, never);
-    for (const solvers::Course& course : race.courses)
+    const Race race = solvers::race(p, {{1e-3, 1e-6}, 2000}, never);
+    for (const Course& course : race.courses)
       EXPECT_GE(energy(p, course.lowest), energy(p, race.answer.V) - 1e-8 * (1 + race.answer.start_gap))
           << course.name << ' ' << k;
   }
@@ -138,14 +138,14 @@ TEST(Quadratic, NobodyIsBelowTheBestFound) {
 TEST(Quadratic, GapsAreReachedInTurnAndTimed) {
   Random random(16);
   const Problem p = random_convex(random, 40, 1);
-  const solvers::Course course = run("gauss_seidel", p, {0.5, 1e-2, 1e-8});
+  const Course course = run("gauss_seidel", p, {0.5, 1e-2, 1e-8});
   ASSERT_TRUE(course.reached[0] && course.reached[1] && course.reached[2]);
   EXPECT_LT(course.reached[0]->sweeps, course.reached[2]->sweeps);
   EXPECT_LE(course.reached[0]->seconds, course.reached[1]->seconds);
   EXPECT_GT(course.reached[0]->seconds, 0);
   EXPECT_EQ(course.reached[2]->sweeps, course.sweeps);
   EXPECT_EQ(course.rises, 0u);
-  const solvers::Answer answer = solvers::best_answer(p);
+  const Answer answer = best_answer(p);
   for (const auto& [gap, reached] : {std::pair(1e-2, course.reached[1]), {1e-8, course.reached[2]}}) {
     const auto n = static_cast<int>(reached->sweeps);
     const double start = energy(p, p.start) - energy(p, answer.V);
@@ -163,34 +163,33 @@ TEST(Quadratic, GivesUpInASentence) {
   EXPECT_THAT(run("hopfield_sequential", p, {1e-12}, 3).failure,
               HasSubstr("not there after 3 sweeps at a gap of "));
   const std::atomic<bool> stop{true};
-  EXPECT_EQ(solvers::run_solver("gauss_seidel", p, solvers::best_answer(p), {{1e-6}, 100}, stop).sweeps,
-            0u);
-  EXPECT_THROW(solvers::make_solver("gauss", p, true), std::invalid_argument);
+  EXPECT_EQ(run_solver("gauss_seidel", p, best_answer(p), {{1e-6}, 100}, stop).sweeps, 0u);
+  EXPECT_THROW(make_solver("gauss", p, true), std::invalid_argument);
 }
 
 TEST(Quadratic, AStartAtTheAnswerLeavesNothingToDo) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(2, 2), Vector::Zero(2), Vector::Zero(2));
   Problem counted = p;
   counted.I << 0.5, 0;
-  EXPECT_TRUE(solvers::race(solvers::reached(counted), {{1e-2}, 10}, never).courses.size() > 0);
+  EXPECT_TRUE(race(reached(counted), {{1e-2}, 10}, never).courses.size() > 0);
   counted.start << 0.5, 0;
-  EXPECT_TRUE(solvers::race(counted, {{1e-2}, 10}, never).courses.empty());
+  EXPECT_TRUE(race(counted, {{1e-2}, 10}, never).courses.empty());
 }
 
 TEST(Quadratic, NeuronsThatNothingReachesAreLeftOut) {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(4, 4);
   W(0, 0) = -2, W(3, 3) = -3, W(0, 3) = W(3, 0) = 1;
   Problem p = problem_of(W, Eigen::Vector4d(1, 0, 0, 2), Eigen::Vector4d(0.5, 0, 0, -7));
-  const Problem small = solvers::reached(p);
+  const Problem small = reached(p);
   EXPECT_EQ(Eigen::MatrixXd(small.W), (Eigen::Matrix2d() << -2, 1, 1, -3).finished());
   EXPECT_EQ(small.I, Vector(Eigen::Vector2d(1, 2)));
   EXPECT_EQ(small.start, Vector(Eigen::Vector2d(0.5, -1)));
-  EXPECT_EQ(small.colours, (solvers::Order{{0}, {1}}));
+  EXPECT_EQ(small.colours, (Order{{0}, {1}}));
   EXPECT_EQ(small.component, (std::vector<std::uint32_t>{0, 1}));
 }
 
 /// Half the way to 0.3 a sweep, cut to whole eighths: 1/8, 1/8 + 0.0875 cut to 1/8, and there it stands.
-class Lattice : public solvers::Solver {
+class Lattice : public Solver {
  public:
   explicit Lattice(const Problem& problem) : Solver(problem) {}
   void sweep() override { V_[0] = std::floor(8 * (V_[0] + (0.3 - V_[0]) / 2)) / 8; }
@@ -200,20 +199,20 @@ class Lattice : public solvers::Solver {
 TEST(Quadratic, ToRestGoesOnBeyondTheLastGap) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
   const auto make = [&] { return std::make_unique<Lattice>(p); };
-  const auto answer = solvers::best_answer(p);
-  const auto course = solvers::run_solver("lattice", make, p, answer, {{0.5}, 100, true}, never);
+  const auto answer = best_answer(p);
+  const auto course = run_solver("lattice", make, p, answer, {{0.5}, 100, true}, never);
   EXPECT_EQ(course.reached[0]->sweeps, 1u);
   EXPECT_EQ(course.sweeps, 2u) << "the second moves nothing";
   EXPECT_EQ(course.failure, "") << "the gap that was asked for was reached";
   EXPECT_EQ(course.least_sweep, 1u);
   EXPECT_NEAR(course.least_gap, std::pow(0.175 / 0.3, 2), 1e-12);
-  const auto stuck = solvers::run_solver("lattice", make, p, answer, {{0.1}, 100, true}, never);
+  const auto stuck = run_solver("lattice", make, p, answer, {{0.1}, 100, true}, never);
   EXPECT_THAT(stuck.failure, HasSubstr("at rest after 2 sweeps at a gap of 0.34"));
-  EXPECT_EQ(solvers::run_solver("lattice", make, p, answer, {{0.5}, 100}, never).sweeps, 1u);
+  EXPECT_EQ(run_solver("lattice", make, p, answer, {{0.5}, 100}, never).sweeps, 1u);
 }
 
 /// Comes to 0.2 in four sweeps, then swings about it for ever, three states in turn.
-class Swinging : public solvers::Solver {
+class Swinging : public Solver {
  public:
   explicit Swinging(const Problem& problem) : Solver(problem) {}
   void sweep() override {
@@ -228,12 +227,11 @@ class Swinging : public solvers::Solver {
 TEST(Quadratic, ToRestEndsWhereNothingGoesLower) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
   const auto make = [&] { return std::make_unique<Swinging>(p); };
-  const auto course =
-      solvers::run_solver("swinging", make, p, solvers::best_answer(p), {{1e-3}, 100000, true}, never);
+  const auto course = run_solver("swinging", make, p, best_answer(p), {{1e-3}, 100000, true}, never);
   EXPECT_THAT(course.failure, HasSubstr("no lower since sweep 4 at a gap of 0.11"));
   EXPECT_EQ(course.sweeps, 109u) << "twice as long and a hundred";
   EXPECT_EQ(course.least_sweep, 5u) << "2e-5 above 0.2";
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::solvers::testing

@@ -1,17 +1,17 @@
 // The solvers on networks of a mesh at a step of 0.05 s: who is faster than whom, and by which power of dt
 // omega.
-#include "tests/rivals/meshes.h"
 #include "tests/networks/quadratics.h"
+#include "tests/rivals/meshes.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::solvers::testing {
 namespace {
 
 // A sheet of 12 x 12 nodes that billows, its step of backward Euler expanded about no change; the scale is
 // such that the largest output of the answer without a box would be `peak`.
 Problem sheet_network(double k, double peak) {
-  const scene::Mesh mesh = sheet(12, k / 2);
+  const scene::Mesh mesh = rivals::testing::sheet(12, k / 2);
   reference::Motion motion{};
   motion.rule = reference::Rule::backward_euler;
   motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
@@ -23,32 +23,32 @@ Problem sheet_network(double k, double peak) {
   const reference::Increment about = reference::increment(mesh, motion, state);
   const auto at_scale = [&](double scale) {
     const auto network = reference::network(mesh, about, scale, Vector::Zero(state.velocity.size()));
-    return solvers::reached(problem_of(network.W, network.I, Vector::Zero(state.velocity.size())));
+    return reached(problem_of(network.W, network.I, Vector::Zero(state.velocity.size())));
   };
   constexpr double far = 1e6;
-  const double largest = solvers::best_answer(at_scale(far)).V.lpNorm<Eigen::Infinity>();
+  const double largest = best_answer(at_scale(far)).V.lpNorm<Eigen::Infinity>();
   return at_scale(far * largest / peak);
 }
 
-const solvers::Course& course_of(const solvers::Race& race, const std::string& name) {
-  for (const solvers::Course& course : race.courses)
+const Course& course_of(const Race& race, const std::string& name) {
+  for (const Course& course : race.courses)
     if (course.name == name) return course;
   throw std::logic_error("no course " + name);
 }
 
 /// To the k-th gap; a billion where it was not reached.
-double sweeps(const solvers::Race& race, const std::string& name, std::size_t k = 0) {
+double sweeps(const Race& race, const std::string& name, std::size_t k = 0) {
   const auto& reached = course_of(race, name).reached.at(k);
   return reached ? static_cast<double>(reached->sweeps) : 1e9;
 }
 
-const std::string& failure(const solvers::Race& race, const std::string& name) {
+const std::string& failure(const Race& race, const std::string& name) {
   return course_of(race, name).failure;
 }
 
 TEST(QuadraticMesh, OrderOfTheSolversWithoutABound) {
   for (const double k : {100., 1000.}) {
-    const solvers::Race race = solvers::race(sheet_network(k, 0.5), {{1e-4}, 20000}, never);
+    const Race race = solvers::race(sheet_network(k, 0.5), {{1e-4}, 20000}, never);
     ASSERT_TRUE(race.answer.convex);
     const std::vector<std::string> faster_first{"cholesky",     "conjugate_gradient",  "accelerated_gradient",
                                                 "gauss_seidel", "hopfield_sequential", "hopfield_damped"};
@@ -72,12 +72,11 @@ double condition(const Problem& p) {
 // A harder spring worsens the matrix: two more digits cost as much more where neurons creep, the root of it
 // where there is momentum.
 TEST(QuadraticMesh, MomentumTakesTheRoot) {
-  const solvers::Limits limits{{1e-6, 1e-8}, 50000};
+  const Limits limits{{1e-6, 1e-8}, 50000};
   const Problem soft = sheet_network(30, 0.5), hard = sheet_network(300, 0.5);
   const double worse = condition(hard) / condition(soft);
   EXPECT_GT(worse, 4);
-  const solvers::Race before = solvers::race(soft, limits, never),
-                        after = solvers::race(hard, limits, never);
+  const Race before = solvers::race(soft, limits, never), after = solvers::race(hard, limits, never);
   const auto growth = [&](const char* name) {
     return (sweeps(after, name, 1) - sweeps(after, name)) / (sweeps(before, name, 1) - sweeps(before, name));
   };
@@ -94,7 +93,7 @@ TEST(QuadraticMesh, MomentumTakesTheRoot) {
 
 TEST(QuadraticMesh, WithTheBoxInTheWay) {
   const Problem p = sheet_network(100, 1.5);
-  const solvers::Race race = solvers::race(p, {{1e-6}, 50000}, never);
+  const Race race = solvers::race(p, {{1e-6}, 50000}, never);
   EXPECT_LE(reference::kkt_violation({p.W, p.I}, race.answer.V), 1e-12);
   EXPECT_GT((race.answer.V.array().abs() == 1).count(), 0);
   EXPECT_THAT(failure(race, "cholesky"), ::testing::HasSubstr("a bound is active"));
@@ -108,8 +107,8 @@ TEST(QuadraticMesh, WithTheBoxInTheWay) {
 class FlagUnderWay : public ::testing::Test {
  protected:
   FlagUnderWay() {
-    const Physics physics(mesh, {{3, 1, -9.81}, 0.2});
-    const auto path = make_method("velocity_verlet", physics, 1e-4);
+    const rivals::Physics physics(mesh, {{3, 1, -9.81}, 0.2});
+    const auto path = rivals::make_method("velocity_verlet", physics, 1e-4);
     for (int k = 0; k < 5000; ++k) path->advance();
     motion.rule = reference::Rule::backward_euler;
     motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
@@ -122,23 +121,23 @@ class FlagUnderWay : public ::testing::Test {
     constexpr double room = 1e4; // m/s^2: no bound is near
     const Vector start = (place - about.predicted) / (about.h * room);
     const auto network = reference::network(mesh, about, room, start);
-    return solvers::reached(problem_of(network.W, network.I, start));
+    return reached(problem_of(network.W, network.I, start));
   }
   static std::vector<double> counts(const Problem& p, const std::string& name) {
-    const auto course =
-        solvers::run_solver(name, p, solvers::best_answer(p), {{1e-2, 1e-4, 1e-6}, 9999}, never);
+    const auto course = run_solver(name, p, best_answer(p), {{1e-2, 1e-4, 1e-6}, 9999}, never);
     std::vector<double> sweeps;
     for (const auto& reached : course.reached) sweeps.push_back(static_cast<double>(reached.value().sweeps));
     return sweeps;
   }
 
-  const scene::Mesh mesh = sheet(20, 50);
+  const scene::Mesh mesh = rivals::testing::sheet(20, 50);
   reference::Motion motion{};
   reference::State state = reference::initial_state(mesh, reference::Rule::backward_euler);
   reference::Increment about{};
 };
 
-// Counts of an older program that shared no code with this one (docs/solvers.md): from where the mesh stands.
+// Counts of an older program that shared no code with this one (docs/findings/array-against-solvers.md): from
+// where the mesh stands.
 TEST_F(FlagUnderWay, TakesAsManySweepsAsAnotherProgramTook) {
   const Problem p = from(state.position);
   EXPECT_NEAR(condition(p), 784, 1);
@@ -156,4 +155,4 @@ TEST_F(FlagUnderWay, ThePredictionIsABetterStart) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::solvers::testing

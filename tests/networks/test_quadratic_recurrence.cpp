@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::solvers::testing {
 namespace {
 
 Problem two_neurons() {
@@ -77,7 +77,7 @@ TEST(QuadraticRecurrence, ExactStepsStopAtTheBox) {
 
 // The largest eigenvalue is 3 + sqrt 2.
 TEST(QuadraticRecurrence, CurvatureFromAbove) {
-  const double L = solvers::largest_curvature(two_neurons());
+  const double L = largest_curvature(two_neurons());
   EXPECT_GT(L, 3 + std::sqrt(2.0));
   EXPECT_LT(L, 1.03 * (3 + std::sqrt(2.0)));
 }
@@ -85,7 +85,7 @@ TEST(QuadraticRecurrence, CurvatureFromAbove) {
 // t = 1, 1.618, ...: momentum comes in with the third step.
 TEST(QuadraticRecurrence, AcceleratedGradient) {
   const Problem p = two_neurons();
-  const double L = solvers::largest_curvature(p), t1 = (1 + std::sqrt(5.0)) / 2,
+  const double L = largest_curvature(p), t1 = (1 + std::sqrt(5.0)) / 2,
                t2 = (1 + std::sqrt(1 + 4 * t1 * t1)) / 2;
   const auto down = [&](const Eigen::Vector2d& V) {
     return Eigen::Vector2d(V[0] + (1 - 4 * V[0] - V[1]) / L, V[1] + (1 - V[0] - 2 * V[1]) / L);
@@ -105,7 +105,7 @@ TEST(QuadraticRecurrence, ConjugateGradient) {
 // (H + rho) x = I + rho V, price still 0; det = (4 + rho)(2 + rho) - 1.
 TEST(QuadraticRecurrence, Admm) {
   for (const auto& [name, share] : {std::pair("admm_tenth", 0.1), {"admm_hundredth", 0.01}}) {
-    const double rho = share * solvers::largest_curvature(two_neurons()), det = (4 + rho) * (2 + rho) - 1;
+    const double rho = share * largest_curvature(two_neurons()), det = (4 + rho) * (2 + rho) - 1;
     const double a = (1 + rho) / det, b = (3 + rho) / det, p = 1 + rho * a, q = 1 + rho * b;
     expect_after(name, 1, a, b);
     expect_after(name, 2, ((2 + rho) * p - q) / det, ((4 + rho) * q - p) / det);
@@ -115,7 +115,7 @@ TEST(QuadraticRecurrence, Admm) {
 // With the box in the way the price of what is cut off counts in the next solve.
 TEST(QuadraticRecurrence, AdmmPaysForTheBox) {
   Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 4), Vector::Zero(1));
-  const double rho = 0.1 * solvers::largest_curvature(p), x = 4 / (1 + rho), price = x - 1;
+  const double rho = 0.1 * largest_curvature(p), x = 4 / (1 + rho), price = x - 1;
   EXPECT_EQ(after("admm_tenth", p, 1)[0], 1);
   EXPECT_GT((4 + rho * (1 - price)) / (1 + rho) + price, 1) << "the hand's second step";
   EXPECT_EQ(after("admm_tenth", p, 2)[0], 1);
@@ -127,4 +127,4 @@ TEST(QuadraticRecurrence, OneSolve) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::solvers::testing

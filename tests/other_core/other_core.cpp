@@ -1,6 +1,6 @@
 // A core that is not ours: reads a blank file of test vectors, computes, and fills it in. Written from
-// docs/vectors.md, docs/datapath.md and docs/cycles.md alone; it shares no line with the rest of the tree,
-// and every number is an exact fraction until a register takes it.
+// docs/use/test-vectors.md, docs/hardware/datapath.md and docs/hardware/cycles.md alone; it shares no line
+// with the rest of the tree, and every number is an exact fraction until a register takes it.
 //   other_core BLANK FILLED [K]     K: the K-th output (from 1) comes out one too high, as from a faulty core
 #include <algorithm>
 #include <cstdlib>

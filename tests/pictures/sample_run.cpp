@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 void add_mesh(RunView& view, std::size_t side) {
@@ -86,4 +86,4 @@ RunView sample_run(std::size_t side, std::size_t frames, std::size_t steps) {
   return view;
 }
 
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

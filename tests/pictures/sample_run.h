@@ -4,8 +4,8 @@
 
 #include "sim/pictures/run_view.h"
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 
 RunView sample_run(std::size_t side = 20, std::size_t frames = 240, std::size_t steps = 400);
 
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

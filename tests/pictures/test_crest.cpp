@@ -6,15 +6,15 @@
 #include <png.h>
 #include <set>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
-Picture decoded(std::string_view file) {
+files::Picture decoded(std::string_view file) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()));
   image.format = PNG_FORMAT_RGBA;
-  Picture picture{image.width, image.height, std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
+  files::Picture picture{image.width, image.height, std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
   EXPECT_TRUE(png_image_finish_read(&image, nullptr, picture.rgba.data(), 0, nullptr));
   return picture;
 }
@@ -22,20 +22,20 @@ Picture decoded(std::string_view file) {
 struct Pixel {
   int r, g, b, a;
 };
-Pixel at(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+Pixel at(const files::Picture& picture, std::uint32_t x, std::uint32_t y) {
   const auto* p = &picture.rgba[(std::size_t{y} * picture.width + x) * 4];
   return {p[0], p[1], p[2], p[3]};
 }
 
 TEST(Crest, PngDecodesToWhatWasDrawn) {
-  const Picture picture = decoded(flag_crest());
+  const files::Picture picture = decoded(flag_crest());
   EXPECT_EQ(picture.width, 512u);
   EXPECT_EQ(picture.height, 512u);
   EXPECT_EQ(picture.rgba, draw_crest(512).rgba);
 }
 
 TEST(Crest, HasABlueFieldAndAGoldenShield) {
-  const Picture picture = draw_crest(512);
+  const files::Picture picture = draw_crest(512);
   const Pixel field = at(picture, 80, 256), shield = at(picture, 160, 280);
   EXPECT_GT(field.b, 2 * field.r);
   EXPECT_GT(shield.r, 150);
@@ -55,4 +55,4 @@ TEST(Crest, SmallSizesWork) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

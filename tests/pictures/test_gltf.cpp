@@ -1,9 +1,9 @@
 // mesh.glb read back by the library's own loader, and held against the rules of glTF 2.0 that viewers depend
 // on.
-#include "sim/pictures/gltf.h"
 #include "sim/files/output_file.h"
-#include "tests/files/folder.h"
+#include "sim/pictures/gltf.h"
 #include "tests/pictures/sample_run.h"
+#include "tests/support/folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@
 #include <limits>
 #include <tiny_gltf.h>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 tinygltf::Model loaded(const RunView& view) {
-  const Folder folder;
+  const tests::Folder folder;
   write_glb(view, folder / "mesh.glb");
   tinygltf::Model model;
   std::string errors, warnings;
-  const std::string file = content_of(folder / "mesh.glb");
+  const std::string file = tests::content_of(folder / "mesh.glb");
   EXPECT_EQ(file.size() % 4, 0u);
   EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model, &errors, &warnings,
                                                         reinterpret_cast<const unsigned char*>(file.data()),
@@ -187,16 +187,16 @@ TEST(Gltf, WithoutCrestThereIsAPlainColour) {
 }
 
 TEST(Gltf, MotionWithoutOneGoodFrameIsRefused) {
-  const Folder folder;
+  const tests::Folder folder;
   RunView view = sample_run(3, 1);
   view.frames[0][0] = std::numeric_limits<float>::infinity();
-  EXPECT_THROW(write_glb(view, folder / "mesh.glb"), WriteError);
+  EXPECT_THROW(write_glb(view, folder / "mesh.glb"), files::WriteError);
   EXPECT_TRUE(folder.empty());
 }
 
 TEST(Gltf, AFullDiskIsTold) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  EXPECT_THROW(write_glb(sample_run(30, 60), "/dev/full"), WriteError);
+  EXPECT_THROW(write_glb(sample_run(30, 60), "/dev/full"), files::WriteError);
 }
 
 TEST(Gltf, TitleMayHoldAnyBytes) {
@@ -206,11 +206,11 @@ TEST(Gltf, TitleMayHoldAnyBytes) {
 }
 
 TEST(Gltf, SameRunSameBytes) {
-  const Folder folder;
+  const tests::Folder folder;
   write_glb(sample_run(6, 10), folder / "a.glb");
   write_glb(sample_run(6, 10), folder / "b.glb");
-  EXPECT_EQ(content_of(folder / "a.glb"), content_of(folder / "b.glb"));
+  EXPECT_EQ(tests::content_of(folder / "a.glb"), tests::content_of(folder / "b.glb"));
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

@@ -2,21 +2,21 @@
 #include "sim/pictures/mesh_picture.h"
 
 #include "sim/pictures/mesh_bitmap.h"
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string drawn(const RunView& view) {
-  const Folder folder;
+  const tests::Folder folder;
   write_mesh_picture(view, folder / "picture.svg");
   std::ifstream file(folder / "picture.svg");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -134,7 +134,7 @@ TEST(MeshPicture, ABitmapShowsTheNearestToo) {
   for (const float gap : {0.25f, -0.25f}) {
     const RunView view = sheets(8, gap);
     const MeshShapes shapes(view);
-    const Picture picture = bitmap_of(shapes, 1, 0);
+    const files::Picture picture = bitmap_of(shapes, 1, 0);
     const std::size_t middle = (std::size_t{picture.height} / 2 * picture.width + picture.width / 2) * 4;
     EXPECT_EQ(picture.rgba[middle]<picture.rgba[middle + 2], gap> 0) << "blue before gold";
     EXPECT_EQ(picture.rgba[0], 255) << "paper";
@@ -145,7 +145,7 @@ TEST(MeshPicture, ABitmapShowsTheNearestToo) {
 TEST(MeshPicture, FacesOfABitmapLeaveNoGap) {
   const RunView view = sheets(200, 1);
   const MeshShapes shapes(view);
-  const Picture picture = bitmap_of(shapes, 2, 0);
+  const files::Picture picture = bitmap_of(shapes, 2, 0);
   std::string row;
   for (std::size_t x = 0; x < picture.width; ++x)
     row += picture.rgba[(std::size_t{picture.height} / 2 * picture.width + x) * 4] == 255 ? ' ' : '#';
@@ -164,4 +164,4 @@ TEST(MeshPicture, AMillionNodesMakeASmallFile) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

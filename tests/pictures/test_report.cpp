@@ -3,13 +3,13 @@
 #include "sim/files/output_file.h"
 #include "sim/pictures/report.h"
 #include "tests/pictures/browser.h"
-#include "tests/files/folder.h"
 #include "tests/pictures/sample_run.h"
+#include "tests/support/folder.h"
 
 #include <gmock/gmock.h>
 #include <limits>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 using testing::HasSubstr;
@@ -27,16 +27,16 @@ RunView small_run() {
 /// element). On a busy machine drawing in software may outlast the page's time: then it gets more.
 BrowserVisit opened(const RunView& view, const std::string& flags = "", const std::string& script = "",
                     const std::filesystem::path& three = debian_three_folder) {
-  const Folder folder;
+  const tests::Folder folder;
   write_report(view, folder / "report.html", three);
-  std::string page = content_of(folder / "report.html");
+  std::string page = tests::content_of(folder / "report.html");
   const std::string watch =
       "<script>addEventListener('load', () => { const wait = setInterval(() => { const html = "
       "document.documentElement; if (html.dataset.ready !== 'true') return; "
       "clearInterval(wait); " +
       script + " html.dataset.told = true; }, 50); });</script></body>";
   page.replace(page.rfind("</body>"), 7, watch);
-  write_file(folder / "report.html", page);
+  files::write_file(folder / "report.html", page);
   BrowserVisit page_seen;
   for (int budget_ms = 4000; budget_ms <= 32000; budget_ms *= 2) {
     page_seen = visit(folder / "report.html", flags, budget_ms);
@@ -169,9 +169,9 @@ TEST(Report, HostileNamesStayText) {
   view.title = view.subtitle = view.outcome = view.manifest = evil;
   view.series[0].name = view.series[0].unit = evil;
   view.tables[0] = {evil, {{evil, evil}}};
-  const Folder folder;
+  const tests::Folder folder;
   write_report(view, folder / "report.html");
-  EXPECT_THAT(content_of(folder / "report.html"), Not(HasSubstr("<script>document")));
+  EXPECT_THAT(tests::content_of(folder / "report.html"), Not(HasSubstr("<script>document")));
   NEED_BROWSER;
   const auto page = opened(view);
   EXPECT_THAT(page.console, IsEmpty());
@@ -181,27 +181,27 @@ TEST(Report, HostileNamesStayText) {
 }
 
 TEST(Report, AsksNobodyForAnything) {
-  const Folder folder;
+  const tests::Folder folder;
   write_report(small_run(), folder / "report.html");
-  const std::string page = content_of(folder / "report.html");
+  const std::string page = tests::content_of(folder / "report.html");
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   for (const char* outside : {"src=\"http", "href=\"http", "url(http", "@import"})
     EXPECT_THAT(page, Not(HasSubstr(outside)));
 }
 
 TEST(Report, SameRunSameBytes) {
-  const Folder folder;
+  const tests::Folder folder;
   write_report(small_run(), folder / "a.html");
   write_report(small_run(), folder / "b.html");
-  EXPECT_EQ(content_of(folder / "a.html"), content_of(folder / "b.html"));
+  EXPECT_EQ(tests::content_of(folder / "a.html"), tests::content_of(folder / "b.html"));
 }
 
 TEST(Report, BrowserTestsWouldSeeAnError) {
   NEED_BROWSER;
-  const Folder folder;
-  write_file(folder / "bad.html", "<!DOCTYPE html><script>undefinedFunction();</script>");
+  const tests::Folder folder;
+  files::write_file(folder / "bad.html", "<!DOCTYPE html><script>undefinedFunction();</script>");
   EXPECT_THAT(visit(folder / "bad.html").console, Not(IsEmpty()));
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

@@ -1,16 +1,16 @@
 // Charts: the Pareto front, what is drawn where, and tables read back.
 #include "sim/pictures/svg_chart.h"
 
-#include "sim/pictures/chart_page.h"
 #include "sim/files/output_file.h"
+#include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_map.h"
 #include "tests/pictures/browser.h"
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace hopmesh::record {
+namespace hopmesh::pictures {
 namespace {
 
 using ::testing::HasSubstr;
@@ -89,17 +89,17 @@ TEST(SvgMap, HasACellAPoint) {
 }
 
 TEST(CsvTable, ReadsQuotesLineBreaksAndNumbers) {
-  const CsvTable t = parse_csv("a,b\n1,\"x, \"\"y\"\"\nz\"\n,inf\n", "t.csv");
+  const files::CsvTable t = files::parse_csv("a,b\n1,\"x, \"\"y\"\"\nz\"\n,inf\n", "t.csv");
   ASSERT_EQ(t.rows.size(), 2u);
   EXPECT_EQ(t.text(0, "b"), "x, \"y\"\nz");
   EXPECT_EQ(t.number(0, "a"), 1.0);
   EXPECT_EQ(t.number(1, "a"), std::nullopt);
   EXPECT_EQ(t.number(1, "b"), std::nullopt);
-  EXPECT_THROW(parse_csv("a,b\n1\n", "t.csv"), std::runtime_error);
+  EXPECT_THROW(files::parse_csv("a,b\n1\n", "t.csv"), std::runtime_error);
 }
 
 TEST(ChartPage, ShowsTheTableAndNoForeignMarkup) {
-  const std::string page = chart_page("<t>", "<svg/>", parse_csv("a\n<script>\n", "t"));
+  const std::string page = chart_page("<t>", "<svg/>", files::parse_csv("a\n<script>\n", "t"));
   EXPECT_THAT(page, HasSubstr("<td>&lt;script&gt;</td>"));
   EXPECT_THAT(page, HasSubstr("<title>&lt;t&gt;</title>"));
 }
@@ -111,7 +111,7 @@ TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
   chart.series = {{"engine",
                    {{{1e-3, 1, false, "width 8\nhopmesh run a <b>", "hopmesh run a <b>"},
                      {1e-4, 2, false, "width 16\nhopmesh run c", "hopmesh run c"}}}}};
-  std::string page = chart_page("t", svg_of(chart), parse_csv("a\n1\n", "t"));
+  std::string page = chart_page("t", svg_of(chart), files::parse_csv("a\n1\n", "t"));
   page.replace(page.rfind("</body>"), 7, R"(<script>
     const marks = document.querySelectorAll('[data-command]'), html = document.documentElement;
     const told = () => [tip.firstChild.textContent, tip.querySelector('code').textContent].join('|');
@@ -123,8 +123,8 @@ TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
     document.body.click();
     marks[0].dispatchEvent(new MouseEvent('mouseenter'));
     html.dataset.free = told();</script></body>)");
-  const Folder folder;
-  write_file(folder / "chart.html", page);
+  const tests::Folder folder;
+  files::write_file(folder / "chart.html", page);
   const BrowserVisit seen = visit(folder / "chart.html");
   EXPECT_THAT(seen.console, ::testing::IsEmpty());
   EXPECT_THAT(seen.dom, HasSubstr("data-first=\"width 8|hopmesh run a &lt;b&gt;\""));
@@ -133,4 +133,4 @@ TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
 }
 
 } // namespace
-} // namespace hopmesh::record
+} // namespace hopmesh::pictures

@@ -1,6 +1,6 @@
-// The slow, obvious oracle: the energies of docs/theory.md, section 1, straight from their formulas, with
-// loops and no linear algebra, in more digits than double has. Finite differences of it need no luck with the
-// step width.
+// The slow, obvious oracle: the energies of docs/method/theory.md, section 1, straight from their formulas,
+// with loops and no linear algebra, in more digits than double has. Finite differences of it need no luck
+// with the step width.
 #pragma once
 
 #include "sim/reference/reference.h"
@@ -59,7 +59,7 @@ inline Wide plain_beta(const scene::Mesh& mesh, const Motion& motion, std::size_
   return count == 0 ? Wide(0) : motion.beta * dt * dt * dt * dt * sum / count;
 }
 
-/// E(V) of docs/theory.md, section 1.
+/// E(V) of docs/method/theory.md, section 1.
 inline Wide plain_energy(const scene::Mesh& mesh, const Motion& motion, const Vector& C,
                          const WideVector& V) {
   const Wide h = Wide(motion.time_step) * motion.time_step / 2;

@@ -1,4 +1,4 @@
-// Whole meshes in motion: what must hold over many steps of docs/theory.md, section 4.
+// Whole meshes in motion: what must hold over many steps of docs/method/theory.md, section 4.
 #include "sim/reference/reference.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/random_inputs.h"

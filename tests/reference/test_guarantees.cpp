@@ -1,4 +1,4 @@
-// What the neuron's rule guarantees for any symmetric network: docs/theory.md, section 3.
+// What the neuron's rule guarantees for any symmetric network: docs/method/theory.md, section 3.
 #include "sim/reference/reference.h"
 #include "tests/reference/plain_energy.h"
 #include "tests/reference/random_inputs.h"
@@ -215,8 +215,8 @@ TEST(ReferenceGuarantees, AMinimumAtABoundWithoutPushIsReachedSlowly) {
 }
 
 TEST(ReferenceGuarantees, AnyOrderBringsANeuralMeshToTheSolutionOfItsLinearSystem) {
-  // docs/theory.md, section 5 (paper eqs. 1 and 2): no rest lengths, no beta, every node within reach of its
-  // place.
+  // docs/method/theory.md, section 5 (paper eqs. 1 and 2): no rest lengths, no beta, every node within reach
+  // of its place.
   Random random(36);
   for (int k = 0; k < 30; ++k) {
     const scene::Mesh mesh = random_mesh(random, 6 + random.below(8), k % 2 == 1, 0);

@@ -1,5 +1,6 @@
 // The incremental potential: its network against differences of its energy, its steps against a Newton solver
-// that knows neither outputs nor scales, and against recurrences done by hand (docs/theory.md, section 4).
+// that knows neither outputs nor scales, and against recurrences done by hand (docs/method/theory.md, section
+// 4).
 #include "tests/reference/plain_energy.h"
 #include "tests/reference/random_inputs.h"
 
@@ -34,7 +35,7 @@ Case random_case(Random& random, int k) {
   return c;
 }
 
-// Phi of docs/theory.md, section 4, with loops.
+// Phi of docs/method/theory.md, section 4, with loops.
 Wide plain_phi(const Case& c, const Increment& about, double scale, const WideVector& V) {
   const Wide reach = Wide(about.h) * scale;
   Wide sum = 0;

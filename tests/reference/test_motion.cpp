@@ -1,4 +1,4 @@
-// One step of the probe formulation, formula by formula: docs/theory.md, section 4.
+// One step of the probe formulation, formula by formula: docs/method/theory.md, section 4.
 #include "sim/reference/reference.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/plain_energy.h"
@@ -140,7 +140,7 @@ TEST(ReferenceMotion, UpdateOrderByHand) {
   }
 }
 
-// Delta E_i of docs/theory.md, section 4, with every spring asked whether it belongs.
+// Delta E_i of docs/method/theory.md, section 4, with every spring asked whether it belongs.
 double brute_energy_change(const scene::Mesh& mesh, const Motion& motion, const Vector& x, const Step& step,
                            std::size_t i) {
   const Wide h = Wide(motion.time_step) * motion.time_step / 2;

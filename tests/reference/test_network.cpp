@@ -1,4 +1,4 @@
-// Energy, weights and bias: docs/theory.md, sections 1 and 2.
+// Energy, weights and bias: docs/method/theory.md, sections 1 and 2.
 #include "sim/reference/reference.h"
 #include "tests/reference/plain_energy.h"
 #include "tests/reference/random_inputs.h"
@@ -165,7 +165,7 @@ TEST(ReferenceNetwork, AgreesWithTheEnergyToSecondOrder) {
 }
 
 TEST(ReferenceNetwork, IsTheEnergyItselfWhereThatIsQuadratic) {
-  // docs/theory.md, section 5, Neural Mesh (paper eq. 1): L = 0 and no beta leave nothing to expand.
+  // docs/method/theory.md, section 5, Neural Mesh (paper eq. 1): L = 0 and no beta leave nothing to expand.
   Random random(24);
   for (int k = 0; k < 40; ++k) {
     Case c = random_case(random, k);

@@ -1,4 +1,4 @@
-// The neuron's rule and the relaxation, by hand: docs/theory.md, section 3.
+// The neuron's rule and the relaxation, by hand: docs/method/theory.md, section 3.
 #include "sim/reference/reference.h"
 #include "tests/reference/random_inputs.h"
 

@@ -1,5 +1,5 @@
 // The static step: against a sparse factorisation where the energy is quadratic, against the hanging chain's
-// closed form where it is not (docs/theory.md, section 4).
+// closed form where it is not (docs/method/theory.md, section 4).
 #include "tests/reference/random_inputs.h"
 #include "tests/reference/static_motion.h"
 

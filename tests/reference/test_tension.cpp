@@ -1,5 +1,5 @@
 // Constant tension: a spring that pulls alike at any length. Its expansion against differences of its energy,
-// and the trees and nets that come of it against closed forms (docs/neural-mesh.md).
+// and the trees and nets that come of it against closed forms (docs/findings/trees-surfaces-snakes.md).
 #include "tests/reference/random_inputs.h"
 #include "tests/reference/static_motion.h"
 

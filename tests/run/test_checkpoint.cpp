@@ -1,6 +1,6 @@
 // A checkpoint keeps every bit, and none of its bytes can change unseen.
 #include "sim/run/checkpoint.h"
-#include "tests/files/folder.h"
+#include "tests/support/folder.h"
 
 #include <cmath>
 #include <cstring>
@@ -11,9 +11,9 @@
 namespace hopmesh::tests {
 namespace {
 
-using record::content_of;
 using run::Checkpoint;
 using ::testing::HasSubstr;
+using tests::content_of;
 namespace fs = std::filesystem;
 
 class CheckpointFile : public ::testing::Test {
@@ -58,7 +58,7 @@ class CheckpointFile : public ::testing::Test {
   }
 
   Checkpoint c;
-  const record::Folder folder;
+  const tests::Folder folder;
   const fs::path file = folder / "checkpoint";
 };
 

@@ -1,19 +1,19 @@
 // A motion that is given its state back, and a run that goes on from its folder, equal the unbroken one.
 #include "sim/levels/array_motion.h"
-#include "sim/run/checkpointer.h"
 #include "sim/levels/reference_motion.h"
+#include "sim/run/checkpointer.h"
 #include "sim/run/step_table.h"
-#include "tests/files/folder.h"
-#include "tests/levels/small_scenes.h"
-#include "tests/levels/soft_array.h"
+#include "tests/support/folder.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/soft_array.h"
 
 #include <gmock/gmock.h>
 
 namespace hopmesh::tests {
 namespace {
 
-using record::content_of;
 using ::testing::HasSubstr;
+using tests::content_of;
 namespace fs = std::filesystem;
 
 scene::Scene short_scene() {
@@ -29,8 +29,11 @@ struct Rig {
       motion = std::make_unique<levels::ArrayMotion>(short_scene(), mesh, fine_array(), port, true);
     else
       motion = std::make_unique<levels::ReferenceMotion>(short_scene(), mesh, fine_array());
-    facts = {
-        {short_scene(), fine_array()}, fixed ? "engine" : "reference", fixed, "hopmesh run grid", 0, fixed};
+    facts = {{short_scene(), fine_array()},
+             &levels::level_named(fixed ? "engine" : "reference", ""),
+             "hopmesh run grid",
+             0,
+             fixed};
   }
   levels::BuiltMesh mesh;
   SoftArray port;
@@ -69,7 +72,7 @@ class Resume : public ::testing::TestWithParam<bool> {
     return "";
   }
 
-  const record::Folder folder;
+  const tests::Folder folder;
   const fs::path out = folder / "r";
   std::atomic<bool> stop{false};
 };
@@ -215,7 +218,7 @@ TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
 }
 
 TEST(ReadRows, SayWhichLineIsNone) {
-  const record::Folder folder;
+  const tests::Folder folder;
   std::string header;
   for (const std::string& name : run::step_columns()) header += (header.empty() ? "" : ",") + name;
   const std::string row = "0,0.05,1,2,3,4,5,6,1,7,8,9,,,,,00000000000000ff\n";

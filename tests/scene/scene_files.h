@@ -4,6 +4,8 @@
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
 
+#include "place.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -64,7 +66,7 @@ inline Mesh mesh_of_obj(const std::string& text) {
 template <typename Action> std::string complaint(Action action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const input::InputError& error) {
     return error.what();
   }
   return "";

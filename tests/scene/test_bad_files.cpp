@@ -1,4 +1,5 @@
 // A folder of bad files: each is refused in one line that names the place and the mistake, at once.
+#include "sim/input/array_file.h"
 #include "tests/scene/scene_files.h"
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 #include "sim/input/shipped.h"
 #include "tests/scene/scene_files.h"
 
+#include "place.h"
+
 #include <algorithm>
 #include <gmock/gmock.h>
 
@@ -132,15 +134,15 @@ TEST(SceneFile, remembersWhereEachKeyStands) {
 }
 
 TEST(ShippedScenes, areListedInOrder) {
-  EXPECT_THAT(shipped_names(Shipped::scene),
+  EXPECT_THAT(input::shipped_names(input::Shipped::scene),
               ::testing::IsSupersetOf({"flag-225", "flag-400", "flag-400-literal", "spot", "two-nodes"}));
-  const std::vector<std::string> names = shipped_names(Shipped::scene);
+  const std::vector<std::string> names = input::shipped_names(input::Shipped::scene);
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-  EXPECT_EQ(shipped_folder(Shipped::scene), HOPMESH_SOURCE_DIR "/sim/scenes");
+  EXPECT_EQ(input::shipped_folder(input::Shipped::scene), HOPMESH_SOURCE_DIR "/sim/scenes");
 }
 
 TEST(ShippedScenes, areNamedAsTheirFilesAndBuild) {
-  for (const std::string& name : shipped_names(Shipped::scene)) {
+  for (const std::string& name : input::shipped_names(input::Shipped::scene)) {
     const Scene s = read_inputs(name, "", {}).scene;
     EXPECT_EQ(s.name, name);
     if (!s.mesh.grid) continue;
@@ -178,7 +180,7 @@ TEST(ShippedScenes, aNameIsNotHiddenByAFolder) {
   EXPECT_EQ(s.mesh.grid->rows, 20);
 }
 
-/// docs/theory.md, section 4 and Table I of the paper.
+/// docs/method/theory.md, section 4 and Table I of the paper.
 TEST(ShippedScenes, flagsHaveThePapersNumbers) {
   const Scene large = read_inputs("flag-400", "", {}).scene, small = read_inputs("flag-225", "", {}).scene;
   EXPECT_EQ(large.motion.time_step, 0.05);

@@ -78,7 +78,7 @@ void expect_equal(const spec::ArraySpec& a, const spec::ArraySpec& b) {
 }
 
 TEST(Text, ofEveryShippedSceneReadsBack) {
-  for (const std::string& name : shipped_names(Shipped::scene)) {
+  for (const std::string& name : input::shipped_names(input::Shipped::scene)) {
     const Scene s = read_inputs(name, "", {}).scene;
     expect_equal(scene_of(scene_text(s)), s);
   }

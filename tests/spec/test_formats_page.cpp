@@ -1,6 +1,9 @@
-// docs/formats.md says what the oracle does: its tables are read, its pictures are drawn anew and compared.
+// docs/hardware/number-formats.md says what the oracle does: its tables are read, its pictures are drawn anew
+// and compared.
 #include "tests/support/slow_fixed.h"
 #include "tests/support/staircase.h"
+
+#include "place.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +48,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 /// Rows of numbers of the table whose header begins with `corner`; the header first.
 std::vector<std::vector<std::string>> table(const std::string& corner) {
   std::vector<std::vector<std::string>> rows;
-  std::istringstream page(read_file(docs + "formats.md"));
+  std::istringstream page(read_file(docs + "hardware/number-formats.md"));
   for (std::string line; std::getline(page, line);) {
     const auto cells = cells_of(line);
     if (rows.empty() ? !cells.empty() && cells[0] == corner : !cells.empty()) rows.push_back(cells);

@@ -2,7 +2,7 @@
 #include "sim/study/sizing.h"
 
 #include "sim/run/array_info.h"
-#include "tests/levels/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,8 @@ namespace hopmesh::tests {
 namespace {
 
 using namespace study;
+using levels::BuiltMesh;
+using run::multiplier_bits;
 
 class SizingTest : public ::testing::Test {
  protected:

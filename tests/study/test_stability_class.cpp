@@ -7,8 +7,8 @@ namespace hopmesh::study {
 namespace {
 
 /// 40 steps of a swing: total energy 1, ten sweeps, at rest after each.
-std::vector<StepRow> swing() {
-  std::vector<StepRow> rows(40);
+std::vector<levels::StepRow> swing() {
+  std::vector<levels::StepRow> rows(40);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].step = k, rows[k].sweeps = 10, rows[k].converged = true;
     rows[k].kinetic = rows[k].energy = 0.5;
@@ -41,25 +41,26 @@ TEST(StabilityClass, UnfinishedIsFalselySoftOrALimitCycleWhereItSwings) {
   EXPECT_EQ(classify(rows, plain), Stability::stable) << "half is not most";
   rows[20].converged = false;
   EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
-  for (StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share + 0.01;
+  for (levels::StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share + 0.01;
   EXPECT_EQ(classify(rows, plain), Stability::limit_cycle);
-  for (StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share - 0.01;
+  for (levels::StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share - 0.01;
   EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
 }
 
 TEST(StabilityClass, SaturatedIsMostOutputsInMostSteps) {
   auto rows = swing();
-  for (StepRow& row : rows) row.saturated = 50;
+  for (levels::StepRow& row : rows) row.saturated = 50;
   EXPECT_EQ(classify(rows, plain), Stability::stable);
-  for (StepRow& row : rows) row.saturated = 51;
+  for (levels::StepRow& row : rows) row.saturated = 51;
   EXPECT_EQ(classify(rows, plain), Stability::saturated);
 }
 
 TEST(StabilityClass, ALatticeStallRestsAtOnceAndIsWrong) {
   auto rows = swing();
-  for (StepRow& row : rows) row.sweeps = stall_sweeps, row.error.emplace().rms_output = stall_error * 1.1;
+  for (levels::StepRow& row : rows)
+    row.sweeps = stall_sweeps, row.error.emplace().rms_output = stall_error * 1.1;
   EXPECT_EQ(classify(rows, plain), Stability::lattice_stall);
-  for (StepRow& row : rows) row.error->rms_output = stall_error * 0.9;
+  for (levels::StepRow& row : rows) row.error->rms_output = stall_error * 0.9;
   EXPECT_EQ(classify(rows, plain), Stability::stable) << "at rest, and rightly so";
 }
 

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::scene {
+namespace hopmesh::study {
 namespace {
 
 const std::string start = "scene = \"two-nodes\"\n";
@@ -12,7 +12,7 @@ const std::string start = "scene = \"two-nodes\"\n";
 std::string refusal(const std::string& text) {
   try {
     study_of(text, "s.toml");
-  } catch (const InputError& error) {
+  } catch (const input::InputError& error) {
     return error.what();
   }
   return "nothing refused";
@@ -79,10 +79,11 @@ TEST(StudyFile, MistakesAreToldByTheirLine) {
 
 TEST(StudyFile, EveryShippedStudyIsRead) {
   EXPECT_THAT(
-      shipped_names(Shipped::study),
+      input::shipped_names(input::Shipped::study),
       ::testing::IsSupersetOf({"all-map", "banner-methods", "first-map", "first-widths", "probe-map"}));
-  for (const std::string& name : shipped_names(Shipped::study)) EXPECT_EQ(read_study(name).name, name);
+  for (const std::string& name : input::shipped_names(input::Shipped::study))
+    EXPECT_EQ(read_study(name).name, name);
 }
 
 } // namespace
-} // namespace hopmesh::scene
+} // namespace hopmesh::study

@@ -1,5 +1,5 @@
 // Every case that an output stage is put through, whoever built it: all 8-bit states, and 16-bit corners
-// before random ones (docs/verification.md). The judge is the bit-serial neuron.
+// before random ones (docs/method/verification.md). The judge is the bit-serial neuron.
 #pragma once
 
 #include "tests/support/random_network.h"

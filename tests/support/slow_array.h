@@ -1,4 +1,5 @@
-// The whole array as a plain loop over phases, written from docs/datapath.md and docs/cycles.md alone.
+// The whole array as a plain loop over phases, written from docs/hardware/datapath.md and
+// docs/hardware/cycles.md alone.
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
@@ -23,7 +24,7 @@ enum class Keep { last_sweep, every_sweep };
 
 ArrayResult run_slow_array(const ArrayJob& job, Keep keep = Keep::last_sweep);
 
-/// Cycles from START taken to DONE, by the table of docs/cycles.md.
+/// Cycles from START taken to DONE, by the table of docs/hardware/cycles.md.
 std::uint64_t slow_cycles(const ArrayJob& job, std::uint32_t sweeps);
 
 } // namespace hopmesh::tests

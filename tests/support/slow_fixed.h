@@ -26,7 +26,7 @@ Cut cut_quotient(Wide numerator, Wide denominator);
 Wide round_cut(const Cut& cut, bool negative, spec::Rounding mode);
 /// Overflow alone: the code that a format makes of a whole number of last places.
 std::int64_t bring_into_range(Wide magnitude, bool beyond, bool negative, const spec::NumberFormat& format);
-/// Q[ ] of docs/datapath.md: rounding, then overflow.
+/// Q[ ] of docs/hardware/datapath.md: rounding, then overflow.
 std::int64_t quantise(const Cut& cut, bool negative, const spec::NumberFormat& format);
 
 /// Q[code * 2^-fraction -> format]

@@ -1,4 +1,4 @@
-// The bit-serial neuron. Every function is one paragraph of docs/datapath.md.
+// The bit-serial neuron. Every function is one paragraph of docs/hardware/datapath.md.
 #include "tests/support/slow_neuron.h"
 
 namespace hopmesh::tests {

@@ -1,4 +1,5 @@
-// A bit-serial neuron, written from docs/datapath.md alone: shift-add multiplication, restoring division.
+// A bit-serial neuron, written from docs/hardware/datapath.md alone: shift-add multiplication, restoring
+// division.
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"

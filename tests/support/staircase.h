@@ -1,4 +1,4 @@
-// Draws what a format makes of numbers, as small SVG pictures for docs/formats.md.
+// Draws what a format makes of numbers, as small SVG pictures for docs/hardware/number-formats.md.
 #pragma once
 
 #include <cstdint>

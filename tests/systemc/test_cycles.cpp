@@ -1,5 +1,5 @@
-// docs/cycles.md to the cycle: every V absent at n - 1 and present at n, DONE, the interrupt line and the
-// counters likewise, for every schedule, normaliser, number of lanes and way of waking.
+// docs/hardware/cycles.md to the cycle: every V absent at n - 1 and present at n, DONE, the interrupt line
+// and the counters likewise, for every schedule, normaliser, number of lanes and way of waking.
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>

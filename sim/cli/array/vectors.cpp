@@ -166,7 +166,7 @@ void add_vectors(CLI::App& program, int& exit_code) {
   verb->add_option("--seed", o->seed, "of the first random network")
       ->check(whole_number(0, INT64_MAX))
       ->capture_default_str();
-  verb->add_option("--out", o->out, "the file to write (docs/vectors.md describes it)");
+  verb->add_option("--out", o->out, "the file to write (docs/use/test-vectors.md describes it)");
   verb->add_flag("--blank", o->blank, "without answers: a core fills them in");
   verb->add_option("--check", o->check, "judge a file that was filled in");
   verb->add_option("--level", o->level, "engine | systemc | systemc-clock: whose answers count")

@@ -5,7 +5,6 @@
 #include "sim/levels/level.h"
 #include "sim/levels/reference_motion.h"
 #include "sim/levels/stop.h"
-#include "sim/rivals/physics.h"
 #include "sim/run/array_info.h"
 #include "sim/run/counted.h"
 #include "sim/study/size_search.h"
@@ -236,7 +235,7 @@ int size(const SizeOptions& o) {
   levels::Prepared p = prepare(o.common);
   if (o.steps > 0) p.inputs.scene.motion.steps = o.steps;
   const study::Sizing checked(p.inputs, *p.mesh);                    // refuses before anything is written
-  if (o.against == "truth") rivals::surroundings_of(p.inputs.scene); // so does this
+  if (o.against == "truth") study::TruthStore::expect_known(p.inputs.scene);
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-size") : o.out;
   const study::TrialFolder kept(folder, hash_of(o, p));
   try {

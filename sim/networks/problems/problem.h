@@ -1,5 +1,5 @@
 // The problem set: networks whose answer is known or can be judged, each made by a formula and a seed, the
-// same on every machine. docs/networks.md lists them.
+// same on every machine. docs/findings/problem-set.md lists them.
 #pragma once
 
 #include "sim/files/matrix_market.h"
@@ -23,7 +23,7 @@ struct Problem {
   std::function<std::string(const std::vector<double>& V)> verdict;
 };
 
-/// In the order of the table in docs/networks.md.
+/// In the order of the table in docs/findings/problem-set.md.
 const std::vector<std::string>& names();
 
 /// A line about it. Throws std::out_of_range for a name that is none.

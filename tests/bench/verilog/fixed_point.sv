@@ -1,4 +1,4 @@
-// Arithmetic that the Verilog models share: rounding with SystemC's modes, bit length (docs/datapath.md).
+// Arithmetic that the Verilog models share: rounding with SystemC's modes, bit length (docs/hardware/datapath.md).
 package fixed_point;
 
   // In SystemC's order (sc_q_mode), as rtl_model/spec/number_format.h numbers them.

@@ -1,4 +1,4 @@
-// One two-part neuron as a module of its own (docs/datapath.md): input accumulator, reciprocal, output stage.
+// One two-part neuron as a module of its own (docs/hardware/datapath.md): input accumulator, reciprocal, output stage.
 // It knows its place in the mesh from the tables of array_pkg. What another stage reads is written by blocking
 // assignments, which spare the simulator a shadow of each.
 module neuron

@@ -1,4 +1,4 @@
-// Walks a run (docs/cycles.md): take START, prepare, phase after phase, convergence check, sweep after sweep.
+// Walks a run (docs/hardware/cycles.md): take START, prepare, phase after phase, convergence check, sweep after sweep.
 // What it shows is the work of the cycle that the next edge ends.
 module sequencer
   import stages::*;

@@ -1,11 +1,11 @@
 // The array on ELEMENTS processing elements that take turns: in phase k, element e is neuron number e of that
-// phase. Written for speed in simulation (docs/performance.md): one process, loops over arrays. Which neuron
+// phase. Written for speed in simulation (docs/findings/performance.md): one process, loops over arrays. Which neuron
 // is where, who reads whom, how long phases are: all loaded, so one model serves every mesh that fits.
 //
 // The memories are written with blocking assignments: this process alone reads and writes them, and the simulator
 // takes no others in loops. What it reads of the sequencer are registers, as they were before the edge. Codes
 // stand sign-extended in 32 or 64 bits, because cutting each to its format costs a third of the speed; none is
-// wider than its format says (docs/datapath.md), so a synthesizer may narrow them.
+// wider than its format says (docs/hardware/datapath.md), so a synthesizer may narrow them.
 module time_multiplexed
   import stages::*;
   import fixed_point::*;

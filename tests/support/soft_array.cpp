@@ -1,0 +1,101 @@
+#include "tests/support/soft_array.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace hopmesh::tests {
+
+namespace {
+
+std::uint32_t word_of(const spec::NumberFormat& f) {
+  return static_cast<std::uint32_t>(f.width | f.integer_bits << 8 | static_cast<int>(f.rounding) << 16 |
+                                    static_cast<int>(f.overflow) << 24);
+}
+
+} // namespace
+
+SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault)
+    : job_{array, topology, {}, {}, {}}, fault_(fault), first_link_(topology.first_link),
+      link_(topology.link_to) {
+  job_.weight.resize(topology.weight_words());
+  job_.bias.resize(topology.neurons());
+  job_.start.resize(topology.neurons());
+  registers_ = {{HM_REG_ID, HM_ID_VALUE},
+                {HM_REG_VERSION, HM_VERSION_VALUE},
+                {HM_REG_CAP_CELLS, topology.cells()},
+                {HM_REG_CAP_NEURONS_PER_CELL, topology.neurons_per_cell},
+                {HM_REG_CAP_LINK_WORDS, topology.link_to.size()},
+                {HM_REG_CAP_NORMALISER, static_cast<std::uint32_t>(array.normaliser)},
+                {HM_REG_CAP_OUTPUT, static_cast<std::uint32_t>(array.output)},
+                {HM_REG_CAP_FORMAT_WEIGHT, word_of(array.formats.weight)},
+                {HM_REG_CAP_FORMAT_BIAS, word_of(array.formats.bias)},
+                {HM_REG_CAP_FORMAT_STATE, word_of(array.formats.state)}};
+  bus_.context = this;
+  bus_.read = [](void* c, std::uint32_t address, std::uint32_t* word) {
+    return static_cast<SoftArray*>(c)->transfer(address, word, 1, false);
+  };
+  bus_.write = [](void* c, std::uint32_t address, std::uint32_t word) {
+    return static_cast<SoftArray*>(c)->transfer(address, &word, 1, true);
+  };
+  bus_.read_burst = [](void* c, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
+    return static_cast<SoftArray*>(c)->transfer(address, words, count, false);
+  };
+  bus_.write_burst = [](void* c, std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+    return static_cast<SoftArray*>(c)->transfer(address, const_cast<std::uint32_t*>(words), count, true);
+  };
+  bus_.wait = [](void* c) -> int { return static_cast<SoftArray*>(c)->stop ? HM_ERROR_STOPPED : HM_OK; };
+}
+
+std::uint32_t* SoftArray::word_at(std::uint32_t address) {
+  const auto in = [address](std::uint32_t window, auto& words) {
+    return reinterpret_cast<std::uint32_t*>(words.data()) + (address - window) / 4;
+  };
+  if (address >= HM_WINDOW_WEIGHT) return in(HM_WINDOW_WEIGHT, job_.weight);
+  if (address >= HM_WINDOW_OUTPUT) return in(HM_WINDOW_OUTPUT, job_.start);
+  if (address >= HM_WINDOW_BIAS) return in(HM_WINDOW_BIAS, job_.bias);
+  if (address >= HM_WINDOW_LINK) return in(HM_WINDOW_LINK, link_);
+  if (address >= HM_WINDOW_FIRST_LINK) return in(HM_WINDOW_FIRST_LINK, first_link_);
+  return &registers_[address];
+}
+
+int SoftArray::transfer(std::uint32_t address, std::uint32_t* words, std::uint32_t count, bool write) {
+  if (refuse) return HM_ERROR_BUS;
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (write)
+      *word_at(address + 4 * k) = words[k];
+    else
+      words[k] = *word_at(address + 4 * k);
+  registers_[HM_REG_BUS_CYCLES_LO] += static_cast<std::uint32_t>(spec::bus_cycles(job_.array, count));
+  if (write && address == HM_WINDOW_OUTPUT) loads_ += 1, sweeps_ = 0;
+  if (write && address == HM_REG_CONTROL && (words[0] & HM_CONTROL_START)) run();
+  return HM_OK;
+}
+
+/// Sweep by sweep, so that a fault can come in between.
+void SoftArray::run() {
+  const bool faulty = fault_ && loads_ > fault_->from_load;
+  const std::uint32_t most = std::max(1u, registers_[HM_REG_MAX_SWEEPS]);
+  ArrayResult sweep;
+  std::uint32_t sweeps = 0;
+  job_.threshold = registers_[HM_REG_THRESHOLD];
+  job_.max_sweeps = 1;
+  do {
+    sweep = run_slow_array(job_);
+    job_.start = sweep.output();
+    sweeps += 1;
+    sweeps_ += 1;
+    if (faulty && (fault_->of_run ? sweeps : sweeps_) == fault_->sweep)
+      job_.start[fault_->neuron] ^= fault_->bit;
+  } while (!sweep.converged && sweeps < most);
+  registers_[HM_REG_SWEEPS] = sweeps;
+  registers_[HM_REG_LARGEST_CHANGE] = sweep.largest_change;
+  registers_[HM_REG_STATUS] = HM_STATUS_DONE | (sweep.converged ? HM_STATUS_CONVERGED : 0);
+  registers_[HM_REG_CYCLES_LO] =
+      static_cast<std::uint32_t>(slow_cycles(job_, sweeps) + (faulty ? fault_->more_cycles : 0));
+}
+
+std::vector<levels::SignalRange> SoftArray::inner_ranges() const {
+  return {{"drive", job_.array.formats.drive, -3, 4}};
+}
+
+} // namespace hopmesh::tests
