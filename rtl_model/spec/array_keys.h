@@ -4,6 +4,7 @@
 
 #include "rtl_model/spec/array_spec.h"
 
+#include <iterator>
 #include <variant>
 
 namespace hopmesh::spec {
@@ -29,8 +30,17 @@ struct Accumulator {
   NumberFormat* format;
 };
 
-/// Where the value of a key stands.
-using Place = std::variant<std::string*, int*, double*, Choice, NumberFormat*, Accumulator>;
+/// Where the value of a key stands. (What an array is called is no fact of the hardware.)
+using Place = std::variant<int*, double*, Choice, NumberFormat*, Accumulator>;
+
+/// The value that stands there, as one word.
+struct ValueText {
+  std::string operator()(const int* x) const { return std::to_string(*x); }
+  std::string operator()(const double* x) const { return std::to_string(*x); }
+  std::string operator()(const Choice& choice) const { return std::string(choice.name()); }
+  std::string operator()(const NumberFormat* format) const { return format->text(); }
+  std::string operator()(const Accumulator& sum) const { return *sum.exact ? "exact" : sum.format->text(); }
+};
 
 /// Which numbers can be built, and the words for them: all from `least` to `most`, or only those of a list.
 /// Of formats, words alone: their rules reach across keys (array_rules.h).
@@ -52,13 +62,17 @@ struct ArrayKey {
   std::string meaning;
   const char* unit = "";
   Allowed allowed;
-  int vectors_line = 0; ///< its place among the lines of a case of test vectors; 0: it changes no answer
+  int vectors_line = 0; ///< its place among the lines of a case of test vectors; 0: no answer depends on it
   int plainest = 0;     ///< number, or number of the name, that a failing case is shrunk towards
   bool counts = true;   ///< as the array stands
   const char* counts_with = "";
 
   ArrayKey(std::string key, Place where, std::string means)
       : name(std::move(key)), place(where), meaning(std::move(means)) {}
+
+  /// The name without its table.
+  std::string word() const { return name.substr(name.find('.') + 1); }
+  std::string value() const { return std::visit(ValueText(), place); }
 
   ArrayKey& in_unit(const char* words) { return unit = words, *this; }
   ArrayKey& allows(Allowed values) { return allowed = std::move(values), *this; }
@@ -88,7 +102,6 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
   const char* const with_modified = "array.output = \"modified\"";
   const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
   return {
-      ArrayKey("name", &a.name, "of the array").allows({"a line of text"}),
       ArrayKey("array.schedule", choice(a.schedule, schedule_names),
                "who fires together: neurons of a colour, one after the other, all at once")
           .in_vectors(1)
@@ -147,6 +160,16 @@ inline ArrayKeys array_keys(ArraySpec& a) {
   ArrayKeys all = structure_keys(a);
   for (const ArrayKey& key : format_keys(a)) all.push_back(key);
   return all;
+}
+
+/// The rows on which answers depend, in the order of test vectors.
+inline ArrayKeys answer_keys(const ArrayKeys& all) {
+  ArrayKeys some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [](const ArrayKey& key) { return key.vectors_line > 0; });
+  std::sort(some.begin(), some.end(),
+            [](const ArrayKey& a, const ArrayKey& b) { return a.vectors_line < b.vectors_line; });
+  return some;
 }
 
 /// The table of an array. Where a walker takes one, a caller may give it rows of its own beside these.

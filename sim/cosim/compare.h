@@ -58,7 +58,6 @@ Comparison compare(std::vector<Contender>& contenders, const levels::BuiltMesh& 
 
 /// The comparison for people, a few lines. `inputs`: SCENE and options as a command line has them, for the
 /// command that cuts a wave around a difference.
-std::string text_of(const Comparison& comparison, const std::string& inputs,
-                         const spec::ArraySpec& array);
+std::string text_of(const Comparison& comparison, const std::string& inputs, const spec::ArraySpec& array);
 
 } // namespace hopmesh::cosim

@@ -1,6 +1,7 @@
 // Random meshes, arrays and codes.
 #include "sim/cosim/random_job.h"
 
+#include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/array_rules.h"
 
 #include <set>
@@ -197,16 +198,13 @@ ArrayJob random_job(std::uint64_t seed, std::size_t most_cells) {
 }
 
 std::string describe(const ArrayJob& job) {
-  const spec::ArraySpec& a = job.array;
-  const auto name = [](std::string_view v) { return std::string(v); };
-  return std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell) +
-         ", " + name(spec::name_of(a.schedule)) + ", " + name(spec::name_of(a.output)) + ", " +
-         name(spec::name_of(a.normaliser)) + " " + std::to_string(a.reciprocal_bits) + ", lanes " +
-         std::to_string(a.lanes) + ", bus " + std::to_string(a.bus_bits) + ", weight " +
-         a.formats.weight.text() + ", bias " + a.formats.bias.text() + ", accumulator " +
-         (a.exact_accumulator ? "exact" : a.formats.accumulator.text()) + ", drive " +
-         a.formats.drive.text() + ", state " + a.formats.state.text() + ", link " + a.formats.link.text() +
-         ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);
+  spec::ArraySpec array = job.array;
+  std::string text =
+      std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell);
+  for (const spec::ArrayKey& key : spec::answer_keys(spec::array_keys(array)))
+    text += ", " + key.word() + " " + key.value();
+  return text + ", threshold " + std::to_string(job.threshold) + ", max_sweeps " +
+         std::to_string(job.max_sweeps);
 }
 
 } // namespace hopmesh::cosim

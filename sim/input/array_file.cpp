@@ -16,16 +16,16 @@ std::vector<std::string> preset_names() {
   return names;
 }
 
-/// The rows of an array as rows of a file. Any number is read; the rules judge it.
-Keys file_keys(const spec::ArrayKeys& rows) {
-  Keys keys;
-  for (const spec::ArrayKey& row : rows) {
-    const auto place = std::visit([](const auto& at) -> Place { return at; }, row.place);
-    const bool is_text = std::holds_alternative<std::string*>(row.place);
-    keys.emplace_back(row.name, place, is_text ? in_words("a name in quotes") : any_number, row.meaning);
-    keys.back().in_unit(row.unit).counts({row.counts, row.counts_with}).allows(row.allowed.words);
-  }
-  return keys;
+/// The key that starts an array from another one; it is never written.
+Special start_of(spec::ArraySpec& a) {
+  const auto read = [&a](const TomlSource& source, const TomlValue& value) {
+    const auto* name = value.as<std::string>();
+    const auto found = name ? spec::preset(*name) : std::nullopt;
+    const auto names = preset_names();
+    if (!found) throw source.error(value, "preset", one_of(names), name ? nearest_name(*name, names) : "");
+    a = *found;
+  };
+  return {read, [] { return std::string(); }};
 }
 
 /// A rule may be broken by a key that was left as it was; then there is no line to name.
@@ -41,13 +41,12 @@ void check_rules(const TomlSource& source, const std::string& file, const spec::
 spec::ArraySpec changed(spec::ArraySpec a, const TomlSource& source, const std::string& file,
                         spec::ArrayTable table) {
   KeyReader reader(source);
-  if (const auto preset = reader.choice("preset", preset_names())) a = spec::presets()[*preset];
-  if (!file.empty())
-    a.name = std::filesystem::path(file).stem().string();
-  else if (source.overridden())
-    a.name = "custom"; // no longer what the preset's name promises
-  read_keys(reader, file_keys(table(a)));
+  read_keys(reader, array_file_keys(a, table));
   reader.refuse_unknown();
+  if (!source.find("name") && !file.empty())
+    a.name = std::filesystem::path(file).stem().string();
+  else if (!source.find("name") && source.overridden())
+    a.name = "custom"; // no longer what the preset's name promises
   check_rules(source, file, a);
   return a;
 }
@@ -61,6 +60,19 @@ bool is_file(const std::string& array) {
 
 } // namespace
 
+Keys array_file_keys(spec::ArraySpec& a, spec::ArrayTable table) {
+  Keys keys{Key("preset", start_of(a), "where to start").unset_is("`\"guarded\"`").allows("a name below"),
+            Key("name", &a.name, in_words("a name in quotes"), "of the array")
+                .unset_is("the file's name; `custom` once `--set` changed a preset")
+                .allows("a line of text")};
+  for (const spec::ArrayKey& row : table(a)) {
+    const auto place = std::visit([](const auto& at) -> Place { return at; }, row.place);
+    keys.emplace_back(row.name, place, row.meaning);
+    keys.back().in_unit(row.unit).counts({row.counts, row.counts_with}).allows(row.allowed.words);
+  }
+  return keys;
+}
+
 spec::ArraySpec read_array(const std::string& array,
                            const std::vector<std::pair<std::string, std::string>>& overrides,
                            std::vector<std::string>& notes) {
@@ -72,8 +84,7 @@ spec::ArraySpec read_array(const std::string& array,
   for (const auto& [key, text] : overrides) source.set(key, text);
   spec::ArraySpec fresh = spec::default_array();
   spec::ArraySpec a = changed(named.value_or(fresh), source, named ? "" : array, spec::array_keys);
-  for (std::string& note :
-       without_effect(source, file_keys(spec::array_keys(a)), file_keys(spec::array_keys(fresh))))
+  for (std::string& note : without_effect(source, array_file_keys(a), array_file_keys(fresh)))
     notes.push_back(std::move(note));
   return a;
 }
@@ -83,7 +94,7 @@ spec::ArraySpec array_of(const TomlSource& source, const std::string& file, spec
 }
 
 std::string array_text(spec::ArraySpec array, spec::ArrayTable table) {
-  return toml_text(file_keys(table(array)));
+  return toml_text(array_file_keys(array, table));
 }
 
 } // namespace hopmesh::input

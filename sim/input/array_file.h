@@ -1,10 +1,13 @@
 // Located keys -> an array, checked against the rules of rtl_model/spec.
 #pragma once
 
-#include "rtl_model/spec/array_keys.h"
-#include "sim/input/toml_source.h"
+#include "sim/input/key_table.h"
 
 namespace hopmesh::input {
+
+/// The rows of an array as rows of a file, and those that name and start it. Any number is read; the rules
+/// judge it.
+Keys array_file_keys(spec::ArraySpec& array, spec::ArrayTable table = spec::array_keys);
 
 /// The array that `array` names (a preset, a file, or "" for the default) with overrides of array.* and
 /// formats.*. Adds a line to `notes` for each key that was set and has no effect.

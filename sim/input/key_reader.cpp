@@ -52,15 +52,6 @@ bool KeyReader::text(const std::string& key, std::string& target, const std::str
   return true;
 }
 
-std::optional<std::size_t> KeyReader::choice(const std::string& key, const std::vector<std::string>& names) {
-  const TomlValue* found = value(key);
-  if (!found) return std::nullopt;
-  const auto* name = found->as<std::string>();
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (name && *name == names[k]) return k;
-  throw source_.error(*found, key, one_of(names), name ? nearest_name(*name, names) : "");
-}
-
 bool KeyReader::known_table(const std::string& key) const {
   const auto below = known_.lower_bound(key + ".");
   return below != known_.end() && below->compare(0, key.size() + 1, key + ".") == 0;

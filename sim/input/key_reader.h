@@ -5,7 +5,6 @@
 #include "sim/input/toml_source.h"
 
 #include <cmath>
-#include <optional>
 #include <set>
 
 namespace hopmesh::input {
@@ -38,8 +37,6 @@ class KeyReader {
   /// Each returns whether the key is there.
   bool integer(const std::string& key, std::int64_t& target, std::int64_t low, std::int64_t high);
   bool text(const std::string& key, std::string& target, const std::string& expected);
-  /// One of a few names: its number among them, or none where the key is absent.
-  std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
 
   /// The number in a value that may be written as an integer.
   double number(const TomlValue& value, const std::string& key, const Range& range) const;

@@ -8,12 +8,9 @@ namespace hopmesh::input {
 
 namespace {
 
-constexpr std::size_t longest_format =
-    80; // the regular expression behind parse_format recurses over its text
-
 std::optional<spec::NumberFormat> format_in(const TomlValue& value) {
   const auto* text = value.as<std::string>();
-  return text && text->size() <= longest_format ? spec::parse_format(*text) : std::nullopt;
+  return text ? spec::parse_format(*text) : std::nullopt;
 }
 
 /// The mode name nearest to a word of the text that is none, for formats like fixed<16,2,SC_RDN>.
@@ -89,7 +86,10 @@ struct Reading {
 
   void operator()(const spec::Choice& choice) const {
     const std::vector<std::string> names(choice.names, choice.names + choice.count);
-    *choice.at = static_cast<std::uint8_t>(*reader.choice(key.name, names));
+    const auto* name = value.as<std::string>();
+    const auto at = name ? std::find(names.begin(), names.end(), *name) : names.end();
+    if (at == names.end()) throw error(one_of(names), name ? nearest_name(*name, names) : "");
+    *choice.at = static_cast<std::uint8_t>(at - names.begin());
   }
 
   void operator()(const Worded& worded) const {

@@ -48,11 +48,8 @@ FigureTable formats(const levels::BuiltMesh& mesh, spec::ArraySpec array) {
   std::vector<pictures::Figure> rows;
   const std::string sum = spec::accumulator_format(array, mesh.topology().most_taps()).text();
   for (const spec::ArrayKey& key : spec::format_keys(array)) {
-    const std::string name = key.name.substr(key.name.find('.') + 1);
-    if (const auto* format = std::get_if<spec::NumberFormat*>(&key.place))
-      rows.push_back({name, (*format)->text()});
-    else
-      rows.push_back({name, sum + (array.exact_accumulator ? " (exact)" : "")});
+    const bool exact = key.value() == "exact";
+    rows.push_back({key.word(), exact ? sum + " (exact)" : key.value()});
   }
   return {"Formats", rows};
 }

@@ -1,7 +1,7 @@
 // [force] of a scene file: its values, and a row for each key.
 #pragma once
 
-#include "sim/input/key_table.h"
+#include "sim/scene/motion_keys.h"
 
 namespace hopmesh::scene {
 
@@ -22,6 +22,11 @@ struct ForceSpec {
   std::optional<ImageSpec> image;
 };
 
+/// What a step leaves of a velocity that nothing drives.
+inline double kept_speed(const MotionSpec& m, const ForceSpec& f) {
+  return m.friction / (1 + f.drag * m.time_step);
+}
+
 inline constexpr const char* image_key = "force.image.file";
 
 /// In the order of scene files. `moving`: whether anything has a speed.
@@ -31,7 +36,7 @@ inline input::Keys force_keys(ForceSpec& f, const input::When& moving) {
       Key("force.gravity", &f.gravity, "acceleration of every free node")
           .in_unit("m/s²")
           .leaves_out(0, "gravity", "none given"),
-      Key("force.wind", &f.wind, "the same, added to gravity")
+      Key("force.wind", &f.wind, "an acceleration too, added to gravity")
           .in_unit("m/s²")
           .unset_is("none")
           .leaves_out(0, "wind", "none given"),
@@ -42,8 +47,8 @@ inline input::Keys force_keys(ForceSpec& f, const input::When& moving) {
       Key("force.image", Part{[&f] { f.image.emplace(); }, "file", "no file", "file = a PGM or PNG picture"},
           ""),
       Key(image_key, in(f.image, &ImageSpec::file), in_words("the path of a PGM or PNG picture"),
-          "a PGM or PNG picture whose edges pull the nodes ([snakes](neural-mesh.md#a-snake-on-an-image)), "
-          "from the scene file's folder; incremental formulation only")
+          "a PGM or PNG picture whose edges pull the nodes, from the scene file's folder; incremental "
+          "formulation only")
           .unset_is("none")
           .allows("a path"),
       Key("force.image.pitch", in(f.image, &ImageSpec::pitch), above_zero,

@@ -1,5 +1,5 @@
-// print_registers PAGE: prints the tables of firmware/registers.h afresh into the page.
-#include "tests/house/register_tables.h"
+// print_tables PAGE: prints the tables of a page afresh into it.
+#include "tests/house/page_tables.h"
 
 #include <fstream>
 #include <iostream>
@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: print_registers docs/hardware/registers.md\n";
+    std::cerr << "usage: print_tables PAGE\n";
     return 2;
   }
   std::ostringstream page;

@@ -1,4 +1,4 @@
-#include "tests/house/register_tables.h"
+#include "tests/house/page_tables.h"
 
 #include "firmware/registers.h"
 
@@ -47,7 +47,10 @@ std::string window_table() {
 
 std::string with_tables(const std::string& page) {
   const std::map<std::string, std::string> tables{{"<!-- table registers -->", register_table()},
-                                                  {"<!-- table windows -->", window_table()}};
+                                                  {"<!-- table windows -->", window_table()},
+                                                  {"<!-- table scene_keys -->", scene_table()},
+                                                  {"<!-- table array_keys -->", array_table()},
+                                                  {"<!-- table presets -->", preset_table()}};
   std::istringstream in(page);
   std::string printed;
   bool inside = false;

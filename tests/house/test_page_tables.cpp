@@ -1,0 +1,53 @@
+// Pages show the tables of the program as they are.
+#include "firmware/registers.h"
+#include "sim/scene/scene.h"
+#include "tests/house/page_tables.h"
+#include "tests/house/tree.h"
+
+#include <gtest/gtest.h>
+
+namespace hopmesh::tests {
+namespace {
+
+TEST(PageTables, areAsTheProgramHasThem) {
+  for (const char* path : {registers_page, scene_page, array_page}) {
+    const std::string page = text_of(path);
+    EXPECT_NE(page.find("<!-- table "), std::string::npos) << path;
+    EXPECT_EQ(page, with_tables(page)) << "stale: run build-check/print_tables " << path;
+  }
+}
+
+// docs/extend.md: a row is all that a page needs of a new key.
+TEST(PageTables, showARowOfYourOwn) {
+  static double spin = 0.5;
+  const input::Keys keys{input::Key("mesh.spin", &spin, {0, 2000, ""}, "turns").in_unit("1/s")};
+  const std::string table = key_table(keys);
+  EXPECT_NE(table.find("| `mesh.spin` | turns | 1/s | `0.5` | 0 to 2,000 |\n"), std::string::npos) << table;
+}
+
+TEST(PageTables, showEveryKeyOfAScene) {
+  scene::Scene scene;
+  const std::string page = text_of(scene_page);
+  for (const input::Key& key : scene_keys(scene))
+    if (!std::holds_alternative<input::Part>(key.place))
+      EXPECT_NE(page.find("| `" + key.name + "` | "), std::string::npos) << key.name;
+}
+
+TEST(PageTables, showEveryRegisterAndWindow) {
+  const std::string page = text_of(registers_page);
+#define HM_X(name, ...) EXPECT_NE(page.find("| `" #name "` | 0x"), std::string::npos) << #name;
+  HM_REGISTERS(HM_X)
+  HM_WINDOWS(HM_X)
+#undef HM_X
+}
+
+TEST(PageTables, replaceOldOnes) {
+  const std::string page = "before\n<!-- table windows -->\n| old |\n<!-- end -->\nafter\n";
+  const std::string printed = with_tables(page);
+  EXPECT_EQ(printed.find("| old |"), std::string::npos);
+  EXPECT_NE(printed.find("| `LINK` | 0x20000000 | RO |"), std::string::npos);
+  EXPECT_EQ(printed.substr(printed.size() - 19), "<!-- end -->\nafter\n");
+}
+
+} // namespace
+} // namespace hopmesh::tests
