@@ -38,9 +38,11 @@ std::string default_folder(std::string name) {
 
 void add_common(CLI::App& verb, CommonOptions& options) {
   verb.add_option("SCENE", options.scene, "a scene file, or the name of a shipped scene")->required();
-  verb.add_option("--array", options.array, "an array file, or the name of a preset");
+  verb.add_option("--array", options.array, "an array file, or the name of a preset")
+      ->group("Scene and array");
   verb.add_option("--set", options.overrides, "key.path=value: overrides a key of the scene or the array")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group("Scene and array");
 }
 
 std::string shell_word(const std::string& word) {

@@ -1,4 +1,4 @@
-// What the verbs have in common: scene, array, overrides, levels; and one function a verb.
+// What the verbs have in common: exit codes, the scene with its array and overrides, checks of flags.
 #pragma once
 
 #include "sim/levels/prepared.h"
@@ -42,20 +42,5 @@ levels::Prepared prepare(const CommonOptions& options);
 void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
 /// Throws input::InputError for a name that no problem has; `where` it stood.
 void check_problem(const std::string& name, const std::string& where);
-
-void add_run(CLI::App& program, int& exit_code);
-void add_compare(CLI::App& program, int& exit_code);
-void add_network(CLI::App& program, int& exit_code);
-void add_solvers(CLI::App& program, int& exit_code);
-void add_info(CLI::App& program, int& exit_code);
-void add_vectors(CLI::App& program, int& exit_code);
-void add_fuzz(CLI::App& program, int& exit_code);
-void add_sweep(CLI::App& program, int& exit_code);
-void add_chart(CLI::App& program, int& exit_code);
-void add_stability(CLI::App& program, int& exit_code);
-void add_solve(CLI::App& program, int& exit_code);
-void add_problem(CLI::App& program, int& exit_code);
-void add_budget(CLI::App& program, int& exit_code);
-void add_size(CLI::App& program, int& exit_code);
 
 } // namespace hopmesh::cli

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <regex>
 
 namespace hopmesh::input {
 
@@ -35,6 +37,15 @@ std::vector<std::string> shipped_names(Shipped kind) {
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::string about_shipped(const std::string& name, Shipped kind) {
+  std::ifstream file(fs::path(shipped_folder(kind)) / (name + ".toml"));
+  std::string comment;
+  for (std::string line; std::getline(file, line) && line.rfind("# ", 0) == 0;) comment += line.substr(1);
+  static const std::regex sentence(" (.*?[.:])( [A-Z].*)?");
+  std::smatch part;
+  return std::regex_match(comment, part, sentence) ? part[1].str() : comment;
 }
 
 std::string path_of(const std::string& word, Shipped kind) {

@@ -20,17 +20,50 @@ class CliHelp : public Cli {
   std::vector<std::string> verbs() const {
     std::vector<std::string> names;
     static const std::regex verb(R"(\n  ([a-z]+) {3,})");
-    const std::string help = good("--help").out, list = help.substr(help.find("Subcommands:"));
-    for (std::sregex_iterator at(list.begin(), list.end(), verb), end; at != end; ++at)
+    const std::string help = good("--help").out;
+    for (std::sregex_iterator at(help.begin(), help.end(), verb), end; at != end; ++at)
       names.push_back((*at)[1]);
     return names;
   }
 };
 
 TEST_F(CliHelp, NamesEveryVerb) {
-  for (const char* verb : {"run", "compare", "network", "solvers", "info", "vectors", "fuzz", "sweep",
-                           "chart", "stability", "solve", "problem", "budget", "size"})
+  for (const char* verb :
+       {"run", "compare", "network", "solvers", "info", "vectors", "fuzz", "sweep", "chart", "stability",
+        "solve", "problem", "budget", "size", "scenes", "presets", "studies", "problems", "help"})
     EXPECT_THAT(verbs(), ::testing::Contains(verb));
+}
+
+TEST_F(CliHelp, IsToldInEveryWayOfAsking) {
+  const std::string help = good("--help").out;
+  EXPECT_EQ(good("").out, help);
+  EXPECT_EQ(good("help").out, help);
+  EXPECT_EQ(good("help run").out, good("run --help").out);
+}
+
+TEST_F(CliHelp, FitsATerminalAndHasNoNoise) {
+  for (const std::string& verb : verbs()) {
+    const std::string help = good(verb + " --help").out;
+    EXPECT_THAT(help, ::testing::Not(HasSubstr("Excludes"))) << verb;
+    for (const std::string& line : lines_of(help.substr(0, help.find("Example:"))))
+      EXPECT_LE(line.size(), 101u) << verb << ": " << line;
+  }
+  EXPECT_THAT(good("run --help").out, HasSubstr("(default engine)"));
+  EXPECT_THAT(good("size --help").out, HasSubstr("(required)"));
+}
+
+TEST_F(CliHelp, ListsNameWhatThereIs) {
+  const auto names_in_list = [this](const char* verb) {
+    std::vector<std::string> names;
+    for (const std::string& line : lines_of(good(verb).out)) names.push_back(line.substr(0, line.find(' ')));
+    return names;
+  };
+  EXPECT_THAT(names_in_list("scenes"), ::testing::IsSupersetOf({"flag-400", "banner", "two-nodes"}));
+  EXPECT_THAT(names_in_list("presets"), ::testing::ElementsAre("guarded", "descent", "prescaled", "byte"));
+  EXPECT_THAT(names_in_list("studies"), ::testing::IsSupersetOf({"first-widths", "banner-bits"}));
+  EXPECT_THAT(names_in_list("problems"), ::testing::IsSupersetOf({"queens-8", "box-random-100"}));
+  for (const std::string& scene : names_in_list("scenes"))
+    EXPECT_THAT(good("scenes").out, ::testing::ContainsRegex("\n?" + scene + " +[A-Z].*[.:]\n"));
 }
 
 TEST_F(CliHelp, OfTheProgramHasAnExampleThatRuns) {
@@ -43,7 +76,7 @@ TEST_F(CliHelp, OfTheProgramHasAnExampleThatRuns) {
 TEST_F(CliHelp, OfEveryVerbHasAnExampleThatRuns) {
   for (const std::string& verb : verbs()) {
     const std::string example = example_in(good(verb + " --help").out);
-    ASSERT_EQ(example.rfind(verb + ' ', 0), 0u) << verb << ": " << example;
+    ASSERT_EQ((example + ' ').rfind(verb + ' ', 0), 0u) << verb << ": " << example;
     EXPECT_NE(good(example).out, "") << example;
   }
 }

@@ -1,6 +1,10 @@
 // Pages can be found and trusted: links, anchors and named files exist, each page says whom it is for, the
 // index knows them all, and the papers at the front door agree about the version.
+#include "place.h"
+
 #include "tests/house/tree.h"
+
+#include "place.h"
 
 #include <cctype>
 #include <filesystem>

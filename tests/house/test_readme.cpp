@@ -34,7 +34,7 @@ std::string all_words_of_users() {
 
 std::vector<std::string> verbs() {
   const std::string help = run(HOPMESH_PROGRAM " --help").text;
-  return matches(help.substr(std::min(help.find("Subcommands:"), help.size())), "\n  ([a-z]+) ");
+  return matches(help, "\n  ([a-z]+) {3,}");
 }
 
 std::string help_of(const std::string& verb) {

@@ -1,5 +1,6 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
 #include "sim/cli/options.h"
+#include "sim/cli/usage.h"
 #include "sim/cosim/contestants.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
@@ -128,7 +129,7 @@ void add_fuzz(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<FuzzOptions>();
   CLI::App* verb = program.add_subcommand("fuzz", "random networks on random arrays: do all levels agree?");
   verb->add_option("--seconds", o->seconds, "no case is begun after so many (10, where --cases is not given)")
-      ->check(CLI::Range(0.001, 1e9));
+      ->check(number_in(0.001, 1e9));
   verb->add_option("--cases", o->cases, "so many cases")->check(whole_number(1));
   verb->add_option("--seed", o->seed, "seed and number make a case, on any machine")
       ->check(whole_number(0, INT64_MAX))
@@ -139,7 +140,7 @@ void add_fuzz(CLI::App& program, int& exit_code) {
   verb->add_option("--levels", o->levels,
                    "engine (all its kernels and ways of sweeping), systemc, systemc-clock")
       ->delimiter(',');
-  verb->add_option("-j", o->children, "processes at once; changes no case")->check(CLI::Range(1, 256));
+  verb->add_option("-j", o->children, "processes at once; changes no case")->check(whole_number(1, 256));
   verb->add_option("--out", o->out, "folder for a case that differs, made as small as it gets")
       ->capture_default_str();
   verb->add_option("--replay", o->replay, "the cases of a file of vectors instead of random ones");

@@ -150,7 +150,8 @@ void allow_resume(CLI::App& verb, RunOptions& o) {
   auto* resume =
       verb.add_option("--resume", o.resume,
                       "DIR: goes on with the run that was interrupted or killed there, bit for bit; "
-                      "beside it only --steps (more than are done), --checkpoint-every and -j");
+                      "beside it only --steps (more than are done), --checkpoint-every and -j")
+          ->group("Safety");
   for (const char* told : {"SCENE", "--array", "--set", "--level", "--out", "--check", "--no-check", "--wave",
                            "--wave-window", "--wave-cells"})
     resume->excludes(verb.get_option(told));
@@ -175,13 +176,16 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_flag("--no-check", o->no_check, "do not ask it")->excludes(check);
   verb->add_option("-j", o->threads,
                    "at most so many threads of the engine, fewer on small meshes; changes no result")
-      ->check(CLI::Range(1, 256))
+      ->check(whole_number(1, 256))
       ->capture_default_str();
-  verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock");
-  verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part");
-  verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12");
+  verb->add_option("--wave", o->wave.file, "FILE.vcd: every register of the array, clock by clock")
+      ->group("Wave");
+  verb->add_option("--wave-window", o->wave_window, "FROM:TO in steps or FROM:TOc in cycles: only this part")
+      ->group("Wave");
+  verb->add_option("--wave-cells", o->wave_cells, "only these cells, like 0,4,10-12")->group("Wave");
   verb->add_option("--checkpoint-every", o->checkpoint_every,
                    "make the steps safe from a kill after every K of them")
+      ->group("Safety")
       ->check(whole_number(1));
   allow_resume(*verb, *o);
   verb->footer(

@@ -1,4 +1,4 @@
-// hopmesh problem: the problem set, listed, and written as Matrix Market files.
+// hopmesh problem: one of the problem set, written as Matrix Market files.
 #include "sim/networks/problems/problem.h"
 
 #include "sim/cli/options.h"
@@ -17,12 +17,7 @@ struct ProblemRequest {
   std::int64_t seed = 1;
 };
 
-int list() {
-  for (const std::string& name : problems::names()) fmt::print("{:<24}{}\n", name, problems::about(name));
-  return done;
-}
-
-int write(const ProblemRequest& o) {
+int problem(const ProblemRequest& o) {
   check_problem(o.name, "NAME");
   const problems::Problem p = problems::make(o.name, static_cast<std::uint64_t>(o.seed));
   const std::filesystem::path folder(o.out);
@@ -35,29 +30,22 @@ int write(const ProblemRequest& o) {
   return done;
 }
 
-int problem(const ProblemRequest& o) {
-  if (o.name.empty() && o.out.empty()) return list();
-  if (o.name.empty() || o.out.empty())
-    throw input::input_error("", 0, o.name.empty() ? "NAME" : "--out", "none", "NAME --out DIR, or neither");
-  return write(o);
-}
-
 } // namespace
 
 void check_problem(const std::string& name, const std::string& where) {
   const auto& names = problems::names();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw input::input_error("", 0, where, input::in_quotes(name),
-                             "a file, or a problem that `hopmesh problem` lists",
+                             "a file, or a problem that `hopmesh problems` lists",
                              input::nearest_name(name, names));
 }
 
 void add_problem(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<ProblemRequest>();
-  CLI::App* verb = program.add_subcommand("problem", "the problem set: listed, or written as files");
-  verb->add_option("NAME", o->name, "one of the list");
+  CLI::App* verb = program.add_subcommand("problem", "one of the problem set as files");
+  verb->add_option("NAME", o->name, "a problem that `hopmesh problems` lists")->required();
   verb->add_option("--seed", o->seed, "of its start")->check(whole_number(1))->capture_default_str();
-  verb->add_option("--out", o->out, "folder for W.mtx, bias.mtx, V0.mtx");
+  verb->add_option("--out", o->out, "folder for W.mtx, bias.mtx, V0.mtx")->required();
   verb->footer("Example:\n  hopmesh problem queens-8 --out out/queens");
   verb->callback([o, &exit_code] { exit_code = problem(*o); });
 }

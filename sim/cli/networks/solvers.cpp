@@ -1,6 +1,6 @@
 // hopmesh solvers: other ways to the answer of one step's network, beside the network's own and the array's.
-#include "sim/files/csv.h"
 #include "sim/cli/options.h"
+#include "sim/files/csv.h"
 #include "sim/levels/stop.h"
 #include "sim/networks/array_solver.h"
 #include "sim/networks/step_problem.h"

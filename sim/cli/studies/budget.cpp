@@ -231,8 +231,7 @@ int budget(const BudgetOptions& o) {
 void add_budget(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<BudgetOptions>();
   CLI::App* verb = program.add_subcommand(
-      "budget", "how much of a run's distance from the truth is quantisation, unfinished relaxation, "
-                "formulation, time step");
+      "budget", "what a run's distance from the truth is made of: words, sweeps, formulation, step");
   add_common(*verb, o->common);
   auto* steps =
       verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));

@@ -1,5 +1,6 @@
 // hopmesh size: the least array that meets an error on a scene, and what shows that it is.
 #include "sim/cli/options.h"
+#include "sim/cli/usage.h"
 #include "sim/files/csv.h"
 #include "sim/files/running_check.h"
 #include "sim/levels/level.h"
@@ -234,7 +235,7 @@ int size(const SizeOptions& o) {
   levels::catch_interrupts();
   levels::Prepared p = prepare(o.common);
   if (o.steps > 0) p.inputs.scene.motion.steps = o.steps;
-  const study::Sizing checked(p.inputs, *p.mesh);                    // refuses before anything is written
+  const study::Sizing checked(p.inputs, *p.mesh); // refuses before anything is written
   if (o.against == "truth") study::TruthStore::expect_known(p.inputs.scene);
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-size") : o.out;
   const study::TrialFolder kept(folder, hash_of(o, p));
@@ -257,7 +258,7 @@ void add_size(CLI::App& program, int& exit_code) {
       ->required()
       ->check(positive_number());
   verb->add_option("--against", o->against, "reference (its free motion), or truth")
-      ->check(CLI::IsMember({"reference", "truth"}))
+      ->check(one_name_of({"reference", "truth"}))
       ->capture_default_str();
   verb->add_option(
           "--time-per-step", o->time_per_step,

@@ -1,6 +1,7 @@
 #include "sim/cli/studies/study_run.h"
 
 #include "sim/cli/options.h"
+#include "sim/cli/usage.h"
 #include "sim/files/output_file.h"
 #include "sim/levels/level.h"
 #include "sim/levels/stop.h"
@@ -149,7 +150,7 @@ void add_study(CLI::App& verb, StudyOptions& o) {
   verb.add_option("-j", o.workers, "so many points at a time (as many as processors); changes no result")
       ->check(whole_number(1, 1024));
   verb.add_option("--executor", o.executor, "local, or slurm: a job array of -j tasks by sbatch")
-      ->check(CLI::IsMember({"local", "slurm"}))
+      ->check(one_name_of({"local", "slurm"}))
       ->capture_default_str();
   verb.add_option("--share", o.share, "K/N: only the points K, K + N, ...: several machines, one folder");
 }
