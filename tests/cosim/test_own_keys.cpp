@@ -1,4 +1,4 @@
-// Keys that no program knows go into test vectors and come back by the table that has them (docs/extend.md).
+// Keys that no program knows go into test vectors and come back by the table that has them.
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/vectors.h"
 #include "sim/input/input_error.h"

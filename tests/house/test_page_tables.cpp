@@ -17,7 +17,7 @@ TEST(PageTables, areAsTheProgramHasThem) {
   }
 }
 
-// docs/extend.md: a row is all that a page needs of a new key.
+// A row is all that a page needs of a new key.
 TEST(PageTables, showARowOfYourOwn) {
   static double spin = 0.5;
   const input::Keys keys{input::Key("mesh.spin", &spin, {0, 2000, ""}, "turns").in_unit("1/s")};

@@ -1,5 +1,5 @@
 // A row is all it takes: keys that no program knows are read, written, noted and walked by the table that has
-// them (docs/extend.md).
+// them.
 #include "rtl_model/spec/array_rules.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/scene/scene_files.h"
