@@ -3,6 +3,7 @@
 #pragma once
 
 #include "firmware/bus.h"
+#include "rtl_model/spec/relaxation.h"
 #include "sim/cosim/array_job.h"
 
 #include <stdexcept>
@@ -18,18 +19,6 @@ class BusFault : public std::runtime_error {
   int error;
 };
 
-/// What the registers say after a run.
-struct RunEnd {
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-  std::uint32_t largest_change = 0;
-  std::uint64_t cycles = 0;
-  bool operator==(const RunEnd& o) const {
-    return sweeps == o.sweeps && converged == o.converged && largest_change == o.largest_change &&
-           cycles == o.cycles;
-  }
-};
-
 class BusArray {
  public:
   BusArray(const hm_bus& bus, const spec::Topology& topology) : bus_(bus), topology_(topology) {}
@@ -38,8 +27,8 @@ class BusArray {
   void load(const ArrayJob& job) const;
   void put_outputs(const Codes& codes) const;
   /// From where V is, until at rest or `max_sweeps`.
-  RunEnd run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
-  RunEnd one_sweep() const { return run(0, 1); }
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
+  spec::Relaxation one_sweep() const { return run(0, 1); }
 
   Codes weights() const;
   Codes biases() const;

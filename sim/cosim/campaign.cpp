@@ -39,7 +39,7 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
   if (preset) {
     const auto presets = spec::presets();
     array = presets[dice.below(presets.size())];
-    array.schedule = static_cast<spec::Schedule>(dice.below(3));
+    array.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     array.lanes = static_cast<int>(dice.between(1, 6));
     if (dice.one_in(4)) array.output = spec::Output::binary;
   }

@@ -25,10 +25,10 @@ struct Contestant {
 struct Answer {
   std::vector<std::uint32_t> capabilities;
   Codes weight, bias, start, output;
-  RunEnd end;
+  spec::Relaxation end;
   std::uint64_t bus_cycles = 0;
   std::vector<Codes> outputs; ///< after every sweep; empty unless asked for
-  std::vector<RunEnd> sweeps;
+  std::vector<spec::Relaxation> sweeps;
 };
 Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep);
 

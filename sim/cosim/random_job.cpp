@@ -11,11 +11,11 @@ namespace {
 
 spec::NumberFormat random_format(Dice& dice, int least_integer_bits) {
   spec::NumberFormat f;
-  f.width = static_cast<int>(dice.between(4, dice.one_in(2) ? 16 : 32));
+  f.width = static_cast<int>(dice.between(spec::least_width, dice.one_in(2) ? 16 : spec::most_width));
   const int most = dice.one_in(3) ? f.width - 1 : std::min(f.width - 1, least_integer_bits + 2);
   f.integer_bits = static_cast<int>(dice.between(least_integer_bits, most));
-  f.rounding = static_cast<spec::Rounding>(dice.below(7));
-  f.overflow = static_cast<spec::Overflow>(dice.below(4));
+  f.rounding = dice.mode<spec::Rounding>(spec::rounding_names);
+  f.overflow = dice.mode<spec::Overflow>(spec::overflow_names);
   return f;
 }
 
@@ -145,12 +145,13 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
   spec::ArraySpec a;
   a.name = "random";
   do {
-    a.schedule = static_cast<spec::Schedule>(dice.below(3));
+    a.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     a.output = dice.one_in(4) ? spec::Output::binary : spec::Output::modified;
-    a.normaliser = static_cast<spec::Normaliser>(dice.below(3));
-    a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, 64) : dice.between(1, 6));
-    a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
-    a.bus_bits = 32 << dice.below(3);
+    a.normaliser = dice.mode<spec::Normaliser>(spec::normaliser_names);
+    a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, spec::most_lanes) : dice.between(1, 6));
+    a.reciprocal_bits =
+        static_cast<int>(dice.between(spec::least_reciprocal_bits, spec::most_reciprocal_bits));
+    a.bus_bits = spec::bus_widths[dice.below(spec::bus_widths.size())];
     a.exact_accumulator = dice.one_in(2);
     a.formats.weight = random_format(dice, 1);
     a.formats.bias = random_format(dice, 1);
@@ -158,10 +159,10 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
     a.formats.state = random_format(dice, 2);
     a.formats.link = dice.one_in(2) ? a.formats.state : random_format(dice, 2);
     a.formats.accumulator = random_format(dice, 1);
-    a.formats.accumulator.width = static_cast<int>(dice.between(4, 62));
+    a.formats.accumulator.width = static_cast<int>(dice.between(spec::least_width, spec::most_sum_width));
     const int width = a.formats.accumulator.width;
     a.formats.accumulator.integer_bits =
-        static_cast<int>(dice.between(1, std::min(width, dice.one_in(2) ? 12 : 62)));
+        static_cast<int>(dice.between(1, std::min(width, dice.one_in(2) ? 12 : spec::most_sum_width)));
   } while (spec::validate(a, taps));
   return a;
 }

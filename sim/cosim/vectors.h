@@ -43,7 +43,7 @@ struct AnswerLine {
   bool end = false;
   std::uint64_t sweep = 0, phase = 0, cycle = 0;
   Codes codes;
-  RunEnd run; ///< of `end`
+  spec::Relaxation run; ///< of `end`
 };
 
 /// Reads a file line by line, however long it is; throws scene::InputError with the line of a mistake.

@@ -1,7 +1,7 @@
 #include "sim/engine/choose.h"
 
-#include "sim/engine/fast_core.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_core.h"
+#include "sim/engine/kernels/fast_plan.h"
 
 #include <stdexcept>
 

@@ -2,7 +2,8 @@
 // generic_core (any array) and fast_core (16-bit weights and links in wide registers).
 #pragma once
 
-#include "sim/engine/kernel.h"
+#include "rtl_model/spec/relaxation.h"
+#include "sim/engine/kernels/kernel.h"
 #include "sim/engine/layout.h"
 #include "sim/engine/plan.h"
 
@@ -10,24 +11,12 @@
 
 namespace hopmesh::engine {
 
-/// Widest swings of s and u over all neurons and runs, zero included: what a format study wants to know.
-struct Extremes {
-  std::int64_t least_sum = 0, largest_sum = 0, least_drive = 0, largest_drive = 0;
-
-  void merge(const Extremes& other) {
-    least_sum = std::min(least_sum, other.least_sum);
-    largest_sum = std::max(largest_sum, other.largest_sum);
-    least_drive = std::min(least_drive, other.least_drive);
-    largest_drive = std::max(largest_drive, other.largest_drive);
-  }
-};
-
 /// What fired blocks leave behind, in either form: a kernel's lanes, or the largest |Delta V| and the swings
 /// themselves.
 struct Swept {
   KernelSwings swings;
   std::int64_t largest = 0;
-  Extremes extremes;
+  spec::Extremes extremes;
 
   std::int64_t largest_change() const {
     std::int64_t most = largest;
@@ -38,7 +27,7 @@ struct Swept {
     largest = 0;
     std::fill(std::begin(swings.largest_change), std::end(swings.largest_change), 0u);
   }
-  Extremes all_extremes() const;
+  spec::Extremes all_extremes() const;
 };
 
 /// Codes are those that the array's memories hold: in range, |V| <= 1. A slot is a cell's place in the

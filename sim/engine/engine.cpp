@@ -1,7 +1,7 @@
 #include "sim/engine/engine.h"
 
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_plan.h"
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"
 
@@ -89,7 +89,7 @@ bool Engine::advance(const std::atomic<bool>& stop) {
   return result_.converged || result_.sweeps == max_sweeps_;
 }
 
-RunResult Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+spec::Relaxation Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
   static const std::atomic<bool> never{false};
   begin_run(threshold, max_sweeps);
   advance(never);

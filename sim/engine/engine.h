@@ -14,14 +14,6 @@ struct Options {
   std::size_t followed = 0;    ///< sweeps that follow each other through the mesh; 0: as helps; 1: plain
 };
 
-/// A run from START taken to DONE.
-struct RunResult {
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-  std::uint32_t largest_change = 0; ///< of the last sweep, raw code of the state
-  std::uint64_t cycles = 0;
-};
-
 /// One array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
 class Engine {
  public:
@@ -49,11 +41,11 @@ class Engine {
   void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps);
   bool advance(const std::atomic<bool>& stop);
   /// Both, without a stop.
-  RunResult run(std::uint32_t threshold, std::uint32_t max_sweeps);
-  const RunResult& result() const { return result_; }
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  const spec::Relaxation& result() const { return result_; }
 
   /// Of s and u, over all runs.
-  const Extremes& extremes() const { return extremes_; }
+  const spec::Extremes& extremes() const { return extremes_; }
   const char* kernel() const { return core_->name(); }
   /// Why none of the fast kernels can have this array, for people; empty if they can.
   std::string why_no_kernel() const;
@@ -72,8 +64,8 @@ class Engine {
   std::unique_ptr<Core> core_;
   Sweeper sweeper_;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
-  RunResult result_;
-  Extremes extremes_;
+  spec::Relaxation result_;
+  spec::Extremes extremes_;
 };
 
 } // namespace hopmesh::engine

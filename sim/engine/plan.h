@@ -1,12 +1,12 @@
-// Where the points of an array's numbers lie, and by how many places each step of a neuron moves them.
+// What of an array's description its neurons need, and where the points of its numbers lie.
 #pragma once
 
-#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/points.h"
 #include "rtl_model/spec/topology.h"
 
 namespace hopmesh::engine {
 
-struct Plan {
+struct Plan : spec::Points {
   Plan(const spec::ArraySpec& array, const spec::Topology& topology);
 
   spec::Formats formats; ///< with the accumulator as built
@@ -16,15 +16,6 @@ struct Plan {
   bool exact;  ///< the accumulator loses nothing
   bool binary; ///< u is the sign of s, and nothing is normalised
   std::size_t most_taps;
-
-  // A row's sum is formed in the finest last place of products and bias, then written into s.
-  int product_up, sum_up; ///< of a product, and of s, to that last place
-  int bias_down;          ///< from the bias to s; below zero: up
-  int weight_up, bias_up; ///< from |w| and |I| to N
-  int ratio_up;           ///< s 2^ratio_up / N counts in the drive's last place
-  int scaled_down;        ///< prescaled: from s to the drive; below zero: up
-  int link_down;          ///< from the state to the link
-
   std::int64_t one_state, one_drive, one_link;
 };
 

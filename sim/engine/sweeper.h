@@ -10,7 +10,7 @@ namespace hopmesh::engine {
 /// What sweeps come to: the last one's largest |Delta V|, and the swings of all of them.
 struct Relaxed {
   std::int64_t largest_change = 0;
-  Extremes extremes;
+  spec::Extremes extremes;
 };
 
 class Sweeper {

@@ -32,7 +32,7 @@ reference::State state_of(const StepState& state) {
 }
 
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
-                   reference::Output output) {
+                   spec::Output output) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
     return reference::relax(network, order, from, 0, sweeps, output).V;
   };
@@ -43,7 +43,7 @@ double alternation(const reference::Network& network, const reference::Order& or
 
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::Motion motion = reference::motion_of(scene);
-  if (array.output == spec::Output::binary) motion.output = reference::Output::binary;
+  motion.output = array.output;
   return motion;
 }
 
@@ -107,8 +107,7 @@ double ReferenceCheck::network_difference(const reference::Network& network, con
       const double* weight = built.weight + hm_row_offset(&m, c, p);
       for (std::uint32_t t = 0; t < hm_row_length(&m, c); ++t) {
         const std::uint32_t source = t < m.components ? c : m.link_to[m.first_link[c] + t / m.components - 1];
-        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components),
-                       weight[t]);
+        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components), weight[t]);
       }
     }
   return largest > 0 ? difference / largest : 0;

@@ -19,7 +19,7 @@ reference::State state_of(const StepState& state);
 /// that dies.
 inline constexpr std::uint32_t swings = 20; ///< even
 double alternation(const reference::Network& network, const reference::Order& order,
-                   const reference::Vector& V, reference::Output output = reference::Output::modified);
+                   const reference::Vector& V, spec::Output output = spec::Output::modified);
 
 class ReferenceCheck {
  public:

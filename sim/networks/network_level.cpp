@@ -13,9 +13,7 @@ using reference::Vector;
 class ReferenceLevel : public NetworkLevel {
  public:
   ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array)
-      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)),
-        output_(array.output == spec::Output::binary ? reference::Output::binary
-                                                     : reference::Output::modified),
+      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)), output_(array.output),
         V_(network.start()) {}
 
   Rest relax(double threshold, std::uint32_t max_sweeps) override {
@@ -35,7 +33,7 @@ class ReferenceLevel : public NetworkLevel {
  private:
   const GivenNetwork& network_;
   const reference::Order order_;
-  const reference::Output output_;
+  const spec::Output output_;
   Vector V_;
 };
 
@@ -72,7 +70,7 @@ class ArrayLevel : public NetworkLevel {
   }
 
   double sweep() override try {
-    const cosim::RunEnd end = there_.one_sweep();
+    const spec::Relaxation end = there_.one_sweep();
     const auto values = counted(there_.outputs(), last_place(driver_.state));
     V_ = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
     return end.largest_change * last_place(driver_.state);

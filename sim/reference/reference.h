@@ -2,6 +2,7 @@
 // alone. It shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
+#include "rtl_model/spec/array_spec.h"
 #include "sim/scene/mesh.h"
 
 #include <Eigen/Dense>
@@ -28,17 +29,13 @@ struct Relaxation {
   bool converged = false;
 };
 
-/// How an output follows from its sum s: a step R s / N (paper eqs. 9 to 12), or its sign (paper eq. 3),
-/// where a sum of zero leaves it as it is.
-enum class Output { modified, binary };
-
 /// What the outputs mean: directions (the paper), accelerations of an implicit step, or displacements towards
 /// the least potential energy.
 enum class Rule { probe, backward_euler, bdf2, statics };
 
 struct Motion {
   Rule rule = Rule::probe;
-  Output output = Output::modified;
+  spec::Output output = spec::Output::modified;
   double mass = 1, drag = 0; ///< incremental: kg of a node; 1/s
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
@@ -97,10 +94,11 @@ Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const Stat
 
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
-/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more
-/// than threshold in a sweep, or max_sweeps.
+/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]): steps R s / N (paper eqs. 9 to
+/// 12), or signs of s where outputs are binary (paper eq. 3), until no output moves by more than threshold in
+/// a sweep, or max_sweeps.
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, Output output = Output::modified);
+                 std::uint32_t max_sweeps, spec::Output output = spec::Output::modified);
 /// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
 double kkt_violation(const Network& network, const Vector& V);
 

@@ -9,7 +9,7 @@
 
 namespace hopmesh::bench {
 
-/// Windows of tests/bench/verilog/stages.sv, in its order.
+/// Windows of rtl_model/verilog/stages.sv, in its order.
 enum class Window { weight, source, bias, output, row_beats, last_phase, most_beats };
 
 template <class Model> class VerilatedModel : public VerilatedArray {

@@ -3,7 +3,7 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_core.h"
+#include "sim/engine/kernels/fast_core.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include "tests/engine/engine_bench.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/engine/fast_core.h"
+#include "sim/engine/kernels/fast_core.h"
 
 namespace hopmesh::tests {
 namespace {

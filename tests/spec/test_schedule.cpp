@@ -219,6 +219,36 @@ TEST(Cycles, APhaseWaitsForItsLongestRow) {
   EXPECT_EQ(m.sweep, 109u);
 }
 
+TEST(Segments, FollowEachOtherAsThePageSays) {
+  const spec::CycleModel m{2, {4, 3}, 8};
+  std::vector<int> walked{spec::Segment::idle};
+  for (int sweeps = 0; walked.size() < 2 || walked.back() != spec::Segment::idle;) {
+    sweeps += walked.back() == spec::Segment::check;
+    walked.push_back(spec::next_segment(m, walked.back(), sweeps == 2));
+  }
+  using S = spec::Segment;
+  const int one = S::first_phase, two = S::first_phase + 1;
+  EXPECT_EQ(walked, (std::vector<int>{S::idle, S::start, S::prepare, one, two, S::check, one, two, S::check,
+                                      S::idle}));
+  EXPECT_EQ(spec::next_segment({0, {4}, 5}, S::start, false), one); // nothing to prepare
+}
+
+TEST(Segments, LastAsLongAsTheRunTheyMakeUp) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const ArrayJob job = random_job(seed);
+    const auto m =
+        spec::cycle_model(job.array, job.topology, spec::phases_of(job.topology, job.array.schedule));
+    std::uint64_t cycles = 0, sweeps = 0;
+    int at = spec::Segment::idle;
+    do {
+      at = spec::next_segment(m, at, sweeps == 3);
+      sweeps += at == spec::Segment::check;
+      cycles += spec::segment_cycles(m, at);
+    } while (at != spec::Segment::idle);
+    EXPECT_EQ(cycles, slow_cycles(job, 3)) << "seed " << seed;
+  }
+}
+
 TEST(Cycles, TheOraclesTableAndTheModelsFormulaAgree) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     const ArrayJob job = random_job(seed);

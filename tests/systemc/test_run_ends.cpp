@@ -190,7 +190,7 @@ TEST_P(Ends, NothingMovesAndTheClockRestsLowBetweenRuns) {
     dut.start(0, 1);
     dut.run_to_cycle(slow_cycles(job, 1) + 1);
     EXPECT_FALSE(dut.device.cells.sequencer.clock().read());
-    EXPECT_EQ(dut.device.cells.sequencer.segment(), systemc::Sequencer::idle);
+    EXPECT_EQ(dut.device.cells.sequencer.segment(), spec::Segment::idle);
     EXPECT_FALSE(sc_core::sc_pending_activity());
     wait_for_edge(dut);
   }

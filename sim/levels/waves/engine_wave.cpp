@@ -128,7 +128,7 @@ void EngineWave::clock() {
 }
 
 void EngineWave::ran(const engine::Engine& array) {
-  const engine::RunResult& result = array.result();
+  const spec::Relaxation& result = array.result();
   now_ = run_began_ + result.cycles;
   total_ += result.cycles;
   if (!stepped_) return;

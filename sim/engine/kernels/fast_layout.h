@@ -2,7 +2,7 @@
 // once for a mesh; kernel.h says how it is read.
 #pragma once
 
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 #include "sim/engine/layout.h"
 
 #include <vector>

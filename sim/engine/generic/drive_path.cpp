@@ -1,6 +1,6 @@
-#include "sim/engine/drive_path.h"
+#include "sim/engine/generic/drive_path.h"
 
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_plan.h"
 #include "sim/engine/rounding.h"
 
 namespace hopmesh::engine {

@@ -1,6 +1,6 @@
 // The kernels in plain C++, for every processor; and the meaning of each operation, for readers of the
 // others.
-#include "sim/engine/kernel_body.h"
+#include "sim/engine/kernels/kernel_body.h"
 
 namespace hopmesh::engine {
 namespace {

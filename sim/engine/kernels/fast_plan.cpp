@@ -1,6 +1,6 @@
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_plan.h"
 
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/lanes.h"
 
 namespace hopmesh::engine {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sim/engine/aligned.h"
-#include "sim/engine/clocked_layout.h"
-#include "sim/engine/drive_path.h"
+#include "sim/engine/clocked/clocked_layout.h"
+#include "sim/engine/generic/drive_path.h"
 
 namespace hopmesh::engine {
 

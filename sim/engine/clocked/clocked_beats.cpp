@@ -1,6 +1,6 @@
-#include "sim/engine/clocked_beats.h"
+#include "sim/engine/clocked/clocked_beats.h"
 
-#include "sim/engine/clocked_loops.h"
+#include "sim/engine/clocked/clocked_loops.h"
 #include "sim/engine/rounding.h"
 
 #include <cstdlib>

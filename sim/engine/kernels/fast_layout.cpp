@@ -1,4 +1,4 @@
-#include "sim/engine/fast_layout.h"
+#include "sim/engine/kernels/fast_layout.h"
 
 #include <algorithm>
 

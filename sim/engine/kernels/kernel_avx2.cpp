@@ -1,5 +1,5 @@
 // Kernels for processors with AVX2. What 64-bit lanes lack there is built from what they have.
-#include "sim/engine/kernel_body.h"
+#include "sim/engine/kernels/kernel_body.h"
 
 #include <immintrin.h>
 

@@ -1,5 +1,5 @@
 // Kernels for processors with AVX-512 (F, BW, VL, DQ, VNNI).
-#include "sim/engine/kernel_body.h"
+#include "sim/engine/kernels/kernel_body.h"
 
 #include <immintrin.h>
 

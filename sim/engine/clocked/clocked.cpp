@@ -1,9 +1,11 @@
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 
 #include "sim/engine/rounding.h"
 #include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {
+
+using spec::Segment;
 
 ClockedEngine::ClockedEngine(const spec::ArraySpec& array, const spec::Topology& topology)
     : topology_(topology), phases_(spec::phases_of(topology, array.schedule)),
@@ -42,7 +44,7 @@ void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
   max_sweeps_ = std::max(max_sweeps, 1u);
   result_ = {};
   done_ = false;
-  enter(start_taken);
+  enter(Segment::start);
 }
 
 // Most clocks lie inside a phase and do little; these have a short way.
@@ -61,7 +63,7 @@ void ClockedEngine::step() {
 }
 
 void ClockedEngine::step(std::uint64_t clocks) {
-  while (clocks > 0 && segment_ != idle) {
+  while (clocks > 0 && segment_ != Segment::idle) {
     const std::uint64_t left = length_ - beat_, some = std::min(clocks, left);
     do_beats(beat_, beat_ + some);
     clocks -= some;
@@ -74,12 +76,11 @@ void ClockedEngine::step(std::uint64_t clocks) {
 void ClockedEngine::enter(int segment) {
   segment_ = segment;
   beat_ = 0;
-  length_ = segment == prepare ? cycles_.prepare : 1;
+  length_ = spec::segment_cycles(cycles_, segment);
   plain_.beat = nullptr;
-  if (segment < first_phase) return;
-  const auto phase = static_cast<std::size_t>(segment - first_phase);
+  if (segment < Segment::first_phase) return;
+  const auto phase = static_cast<std::size_t>(segment - Segment::first_phase);
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
-  length_ = cycles_.phase[phase];
   firing_ = {phase / per_cell, phase % per_cell, phase % per_cell + 1};
   if (plan_.schedule == spec::Schedule::synchronous) firing_ = {0, 0, per_cell};
   if (!beats_.plain() || firing_.last_p > firing_.first_p + 1) return;
@@ -96,9 +97,9 @@ void ClockedEngine::enter(int segment) {
 }
 
 void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {
-  if (segment_ >= first_phase)
+  if (segment_ >= Segment::first_phase)
     do_phase(first, last);
-  else if (segment_ == prepare)
+  else if (segment_ == Segment::prepare)
     do_prepare(first, last);
 }
 
@@ -115,7 +116,7 @@ void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
   const ClockedBank& bank = layout_.banks[firing_.bank];
   if (first == 0) {
     beats_.take_links(bank, firing_.first_p == 0);
-    if (segment_ == first_phase) largest_ = 0;
+    if (segment_ == Segment::first_phase) largest_ = 0;
   }
   const auto from = static_cast<std::int64_t>(first - normalise_cycles_);
   const auto to = from + static_cast<std::int64_t>(last - first);
@@ -132,21 +133,13 @@ void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
 }
 
 void ClockedEngine::leave_segment() {
-  if (segment_ == check) {
+  if (segment_ == Segment::check) {
     result_.sweeps += 1;
     result_.largest_change = static_cast<std::uint32_t>(largest_);
     result_.converged = largest_ <= threshold_;
   }
-  enter(next_segment());
-  done_ = segment_ == idle;
-}
-
-int ClockedEngine::next_segment() const {
-  const int phases_end = first_phase + static_cast<int>(cycles_.phase.size());
-  if (segment_ == start_taken && cycles_.prepare > 0) return prepare;
-  if (segment_ == start_taken || segment_ == prepare) return first_phase < phases_end ? +first_phase : +check;
-  if (segment_ == check) return result_.converged || result_.sweeps == max_sweeps_ ? +idle : +first_phase;
-  return segment_ + 1 < phases_end ? segment_ + 1 : +check;
+  enter(spec::next_segment(cycles_, segment_, result_.converged || result_.sweeps == max_sweeps_));
+  done_ = segment_ == Segment::idle;
 }
 
 } // namespace hopmesh::engine

@@ -1,4 +1,4 @@
-#include "sim/engine/clocked_layout.h"
+#include "sim/engine/clocked/clocked_layout.h"
 
 #include "sim/engine/layout.h"
 

@@ -1,4 +1,4 @@
-#include "sim/engine/clocked_loops.h"
+#include "sim/engine/clocked/clocked_loops.h"
 
 #include "sim/engine/widest.h"
 

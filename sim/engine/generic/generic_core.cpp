@@ -2,8 +2,8 @@
 // can hold, 128 where a format asks for them.
 #include "sim/engine/aligned.h"
 #include "sim/engine/core.h"
-#include "sim/engine/drive_path.h"
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/drive_path.h"
+#include "sim/engine/generic/lanes.h"
 #include "sim/engine/rounding.h"
 
 #include <cstdlib>
@@ -158,7 +158,7 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swep
   else
     sum_with_loss(w, in, taps, &bias_[first], sum);
   path_.drives({&norm_[first], &reciprocal_[first], &places_[first]}, sum, u);
-  Extremes& x = swept.extremes;
+  spec::Extremes& x = swept.extremes;
   LaneSwings sums{x.least_sum, x.largest_sum}, driven{x.least_drive, x.largest_drive};
   swing_lanes(sum, sums);
   swing_lanes(u, driven);
@@ -209,8 +209,8 @@ void GenericCore::sum_with_loss(const std::int32_t* w, const std::int32_t* in, s
 
 } // namespace
 
-Extremes Swept::all_extremes() const {
-  Extremes all = extremes;
+spec::Extremes Swept::all_extremes() const {
+  spec::Extremes all = extremes;
   for (std::size_t l = 0; l < 8; ++l)
     all.merge({swings.least_sum[l], swings.largest_sum[l], swings.least_drive[l], swings.largest_drive[l]});
   return all;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/engine/core.h"
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // What the clock-stepped engine does in nearly every clock, as plain loops over rows side by side.
 #pragma once
 
-#include "sim/engine/clocked_layout.h"
-#include "sim/engine/lanes.h"
+#include "sim/engine/clocked/clocked_layout.h"
+#include "sim/engine/generic/lanes.h"
 
 namespace hopmesh::engine {
 

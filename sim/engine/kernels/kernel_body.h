@@ -3,7 +3,7 @@
 // standard library: code made for one processor must not be picked for another.
 #pragma once
 
-#include "sim/engine/kernel_stage.h"
+#include "sim/engine/kernels/kernel_stage.h"
 
 namespace hopmesh::engine {
 namespace {

@@ -1,7 +1,7 @@
 // What of an array's description the kernels can have, and how it looks to them.
 #pragma once
 
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 #include "sim/engine/plan.h"
 
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/lanes.h"
 
 namespace hopmesh::engine {
 

@@ -1,7 +1,7 @@
 // The output stage of sixteen neurons, for any instruction set; see kernel_body.h, whose first half this is.
 #pragma once
 
-#include "sim/engine/kernel.h"
+#include "sim/engine/kernels/kernel.h"
 
 namespace hopmesh::engine {
 namespace {

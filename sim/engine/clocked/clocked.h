@@ -2,7 +2,7 @@
 // hardware has it. docs/hardware/engine.md, "Clock by clock".
 #pragma once
 
-#include "sim/engine/clocked_beats.h"
+#include "sim/engine/clocked/clocked_beats.h"
 #include "sim/engine/engine.h"
 
 namespace hopmesh::engine {
@@ -19,9 +19,6 @@ class ClockedEngine {
   void write_biases(std::size_t first, const std::uint32_t* words, std::size_t count);
   void write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count);
 
-  /// Segments are numbered as in waves: idle, start, prepare, check, and first_phase + k for phase k.
-  enum Segment : int { idle, start_taken, prepare, check, first_phase };
-
   /// START: cycle 0 is the one that now begins.
   void start(std::uint32_t threshold, std::uint32_t max_sweeps);
   /// One clock; nothing when idle.
@@ -29,13 +26,13 @@ class ClockedEngine {
   /// `clocks` of them, or up to the end of the run. Only what stands after the last is worked out.
   void step(std::uint64_t clocks);
 
-  /// Of the cycle that comes next.
+  /// Of the cycle that comes next; a number of spec::Segment.
   int segment() const { return segment_; }
   std::uint64_t beat() const { return beat_; }
-  bool busy() const { return segment_ != idle; }
+  bool busy() const { return segment_ != spec::Segment::idle; }
   bool done() const { return done_; }
   /// Of the run, up to now: whole sweeps, and what the last of them came to; cycles of the clock.
-  const RunResult& result() const { return result_; }
+  const spec::Relaxation& result() const { return result_; }
   const spec::CycleModel& cycles() const { return cycles_; }
   const spec::Formats& formats() const { return plan_.formats; } ///< with the accumulator as built
   const spec::Phases& phases() const { return phases_; }
@@ -64,7 +61,6 @@ class ClockedEngine {
   void do_phase(std::uint64_t first, std::uint64_t last);
   void enter(int segment);
   void leave_segment();
-  int next_segment() const;
 
   const spec::Topology topology_;
   const spec::Phases phases_;
@@ -74,7 +70,7 @@ class ClockedEngine {
   const std::uint64_t normalise_cycles_;
   ClockedBeats beats_;
   std::vector<std::uint32_t> row_; ///< of a neuron
-  int segment_ = idle;
+  int segment_ = spec::Segment::idle;
   std::uint64_t beat_ = 0, length_ = 0; ///< of the segment
   Firing firing_{0, 0, 0};
   /// The phase at hand, where each clock is one tap of one stretch of rows: what step() then needs.
@@ -88,7 +84,7 @@ class ClockedEngine {
   bool done_ = false;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
   std::int64_t largest_ = 0; ///< |Delta V| of the sweep at hand: the convergence detector
-  RunResult result_;
+  spec::Relaxation result_;
 };
 
 } // namespace hopmesh::engine

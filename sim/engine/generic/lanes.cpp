@@ -1,4 +1,4 @@
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/lanes.h"
 
 #include "sim/engine/widest.h"
 

@@ -2,7 +2,7 @@
 // not.
 #pragma once
 
-#include "sim/engine/lanes.h"
+#include "sim/engine/generic/lanes.h"
 #include "sim/engine/plan.h"
 
 namespace hopmesh::engine {

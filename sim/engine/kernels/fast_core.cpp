@@ -1,8 +1,8 @@
-#include "sim/engine/fast_core.h"
+#include "sim/engine/kernels/fast_core.h"
 
 #include "sim/engine/aligned.h"
-#include "sim/engine/fast_layout.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_layout.h"
+#include "sim/engine/kernels/fast_plan.h"
 
 #include <atomic>
 #include <cstring>
