@@ -42,16 +42,31 @@ struct ValueText {
   std::string operator()(const Accumulator& sum) const { return *sum.exact ? "exact" : sum.format->text(); }
 };
 
-/// Which numbers can be built, and the words for them: all from `least` to `most`, or only those of a list.
-/// Of formats, words alone: their rules reach across keys (array_rules.h).
+// What can be built; rules that reach across keys are in array_rules.h.
+inline constexpr int least_width = 4, most_width = 32; ///< of every format but the accumulator's
+inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
+inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
+inline constexpr int most_lanes = 64;
+inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
+inline constexpr double most_mhz = 10000;
+
+/// Which numbers can be built, and the words for them: from `least` (`above` it) to `most`, or only those of
+/// a list. Of formats, words alone.
 struct Allowed {
   std::string words;
   double least = 0, most = 0;
+  bool above = false;
   std::vector<int> only = {};
 
   bool takes(double x) const {
     if (!only.empty()) return std::find(only.begin(), only.end(), x) != only.end();
-    return x >= least && x <= most;
+    return (above ? x > least : x >= least) && x <= most;
+  }
+  /// Whatever is no number is taken.
+  bool takes(const Place& place) const {
+    if (const auto* whole = std::get_if<int*>(&place)) return takes(**whole);
+    if (const auto* real = std::get_if<double*>(&place)) return takes(**real);
+    return true;
   }
 };
 
@@ -84,13 +99,19 @@ using ArrayKeys = std::vector<ArrayKey>;
 
 namespace detail {
 
-inline Allowed from_to(int least, int most) {
-  return {std::to_string(least) + " to " + std::to_string(most), double(least), double(most)};
+inline std::string from_to(int least, int most) {
+  return std::to_string(least) + " to " + std::to_string(most);
 }
 
-inline Allowed bits(int most, int least_integer_bits, const char* more = "") {
-  return {"4 to " + std::to_string(most) + " bits, " + std::to_string(least_integer_bits) +
-          " or more before the point" + more};
+inline Allowed numbers(int least, int most) {
+  return {from_to(least, most), double(least), double(most)};
+}
+
+inline Allowed bits(const SignalClass& signal) {
+  if (signal.format == &Formats::accumulator)
+    return {"`\"exact\"`, or " + from_to(least_width, most_sum_width) + " bits, no finer than a product"};
+  return {from_to(least_width, most_width) + " bits, " + std::to_string(signal.least_integer_bits) +
+          " or more before the point"};
 }
 
 } // namespace detail
@@ -107,7 +128,7 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .in_vectors(1)
           .plain(Schedule::sequential),
       ArrayKey("array.lanes", &a.lanes, "multipliers a neuron: inputs taken a cycle")
-          .allows(detail::from_to(1, 64))
+          .allows(detail::numbers(1, most_lanes))
           .in_vectors(5)
           .plain(1),
       ArrayKey("array.output", choice(a.output, output_names), "V moves by R · s / N; or V is the sign of s")
@@ -120,40 +141,34 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .plain(Normaliser::prescaled),
       ArrayKey("array.reciprocal_bits", &a.reciprocal_bits, "width of the truncated reciprocal")
           .in_unit("bits")
-          .allows(detail::from_to(4, 32))
+          .allows(detail::numbers(least_reciprocal_bits, most_reciprocal_bits))
           .counts_only(has_reciprocal(a), with_reciprocal)
           .in_vectors(4)
           .plain(18),
       ArrayKey("array.bus_bits", &a.bus_bits, "data width of the host bus")
           .in_unit("bits")
-          .allows({"32, 64 or 128", 32, 128, {32, 64, 128}})
+          .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
           .in_vectors(6)
           .plain(32),
       ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
           .in_unit("MHz")
-          .allows({"above 0, at most 10000", 1e-300, 10000}),
+          .allows({"above 0, at most 10000", 0, most_mhz, true}),
   };
 }
 
 inline ArrayKeys format_keys(ArraySpec& a) {
-  Formats& f = a.formats;
-  return {
-      ArrayKey("formats.weight", &f.weight, "a weight as the host writes it")
-          .allows(detail::bits(32, 1))
-          .in_vectors(7),
-      ArrayKey("formats.bias", &f.bias, "a bias as the host writes it")
-          .allows(detail::bits(32, 1))
-          .in_vectors(8),
-      ArrayKey("formats.accumulator", Accumulator{&a.exact_accumulator, &f.accumulator},
-               "the register of s; `\"exact\"`: as wide as the longest row needs")
-          .allows({"`\"exact\"`, or 4 to 62 bits, no finer than a product"})
-          .in_vectors(9),
-      ArrayKey("formats.drive", &f.drive, "u").allows(detail::bits(32, 2)).in_vectors(10),
-      ArrayKey("formats.state", &f.state, "V in the output stage").allows(detail::bits(32, 2)).in_vectors(11),
-      ArrayKey("formats.link", &f.link, "V as neighbours see it")
-          .allows(detail::bits(32, 2, ", no finer than the state"))
-          .in_vectors(12),
-  };
+  constexpr int first_line = 7; // of test vectors
+  ArrayKeys keys;
+  for (const SignalClass& signal : signal_classes) {
+    NumberFormat* const format = &(a.formats.*signal.format);
+    const bool sum = signal.format == &Formats::accumulator;
+    const Place place = sum ? Place(Accumulator{&a.exact_accumulator, format}) : Place(format);
+    const int line = first_line + static_cast<int>(keys.size());
+    keys.push_back(ArrayKey(std::string("formats.") + signal.name, place, signal.meaning)
+                       .allows(detail::bits(signal))
+                       .in_vectors(line));
+  }
+  return keys;
 }
 
 inline ArrayKeys array_keys(ArraySpec& a) {

@@ -153,11 +153,12 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
         static_cast<int>(dice.between(spec::least_reciprocal_bits, spec::most_reciprocal_bits));
     a.bus_bits = spec::bus_widths[dice.below(spec::bus_widths.size())];
     a.exact_accumulator = dice.one_in(2);
-    a.formats.weight = random_format(dice, 1);
-    a.formats.bias = random_format(dice, 1);
-    a.formats.drive = random_format(dice, 2);
-    a.formats.state = random_format(dice, 2);
-    a.formats.link = dice.one_in(2) ? a.formats.state : random_format(dice, 2);
+    for (const spec::SignalClass& signal : spec::signal_classes)
+      if (signal.format != &spec::Formats::accumulator) {
+        const bool as_state = signal.format == &spec::Formats::link && dice.one_in(2);
+        a.formats.*signal.format =
+            as_state ? a.formats.state : random_format(dice, signal.least_integer_bits);
+      }
     a.formats.accumulator = random_format(dice, 1);
     a.formats.accumulator.width = static_cast<int>(dice.between(spec::least_width, spec::most_sum_width));
     const int width = a.formats.accumulator.width;

@@ -163,7 +163,7 @@ void VectorReader::read_array(spec::ArraySpec& a) {
 
 // A rule that the array breaks, told at the line of its key.
 void VectorReader::check_rules(const spec::ArraySpec& array, const spec::Topology& topology) const {
-  const auto fault = spec::validate(array, topology.most_taps());
+  const auto fault = spec::validate(array, topology.most_taps(), table_);
   if (!fault) return;
   const std::string key = fault->key.substr(fault->key.find('.') + 1);
   for (const auto& [name, line] : key_lines_)

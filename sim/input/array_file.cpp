@@ -29,8 +29,9 @@ Special start_of(spec::ArraySpec& a) {
 }
 
 /// A rule may be broken by a key that was left as it was; then there is no line to name.
-void check_rules(const TomlSource& source, const std::string& file, const spec::ArraySpec& a) {
-  const auto fault = spec::validate(a);
+void check_rules(const TomlSource& source, const std::string& file, const spec::ArraySpec& a,
+                 spec::ArrayTable table) {
+  const auto fault = spec::validate(a, 1, table);
   if (!fault) return;
   if (const TomlValue* place = source.find(fault->key))
     throw source.error(*place, fault->key, fault->expected);
@@ -47,7 +48,7 @@ spec::ArraySpec changed(spec::ArraySpec a, const TomlSource& source, const std::
     a.name = std::filesystem::path(file).stem().string();
   else if (!source.find("name") && source.overridden())
     a.name = "custom"; // no longer what the preset's name promises
-  check_rules(source, file, a);
+  check_rules(source, file, a, table);
   return a;
 }
 
@@ -59,6 +60,11 @@ bool is_file(const std::string& array) {
 }
 
 } // namespace
+
+bool is_array_key(const std::string& key) {
+  const std::string table = key.substr(0, key.find('.'));
+  return table == "array" || table == "formats";
+}
 
 Keys array_file_keys(spec::ArraySpec& a, spec::ArrayTable table) {
   Keys keys{Key("preset", start_of(a), "where to start").unset_is("`\"guarded\"`").allows("a name below"),

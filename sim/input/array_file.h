@@ -5,6 +5,9 @@
 
 namespace hopmesh::input {
 
+/// Whether a key, or an override that begins with one, is in a table of array files.
+bool is_array_key(const std::string& key);
+
 /// The rows of an array as rows of a file, and those that name and start it. Any number is read; the rules
 /// judge it.
 Keys array_file_keys(spec::ArraySpec& array, spec::ArrayTable table = spec::array_keys);

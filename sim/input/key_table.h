@@ -45,7 +45,7 @@ template <typename Group, typename Value> Place in(std::optional<Group>& part, V
 enum class Otherwise {
   told,            ///< it may stand there; people are told that it does nothing
   refused,         ///< a mistake, and never written
-  nothing_but_zero ///< the same, but 0 may stand there
+  nothing_but_zero ///< any value but 0 is a mistake; never written
 };
 
 /// Whether a key counts, and beside which setting it does. `why` follows "0: " where 0 may stand there.

@@ -2,7 +2,6 @@
 #include "sim/scene/scene_reader.h"
 
 #include <filesystem>
-#include <fmt/format.h>
 
 namespace hopmesh::scene {
 
@@ -34,11 +33,6 @@ struct Rules {
     if (!mesh.grid && !mesh.file)
       throw input::input_error(scene.source, 0, "mesh", "no shape",
                                "mesh.grid = { rows, columns, pitch } or mesh.file");
-    if (!mesh.grid) return;
-    const std::int64_t nodes = std::int64_t{mesh.grid->rows} * mesh.grid->columns;
-    if (nodes < 2 || nodes > most_nodes)
-      throw scene_error(scene, grid_table, fmt::format("{} x {} nodes", mesh.grid->rows, mesh.grid->columns),
-                        fmt::format("2 to {} nodes", most_nodes));
   }
 
   void check_rest() const {

@@ -82,6 +82,11 @@ TEST(ArrayTable, readsAndWritesRowsOfYourOwn) {
   EXPECT_EQ(depth, 7);
   EXPECT_EQ(colour, Colour::blue);
   EXPECT_EQ(ratio, narrow);
+  EXPECT_EQ(complaint([] {
+              input::array_of(input::TomlSource::of_text("[array]\ndepth = 10\n", "a.toml"), "a.toml",
+                              with_more);
+            }),
+            "a.toml:2: array.depth: found 10, expected 1 to 9");
   EXPECT_THAT(complaint([&] { input::array_of(input::TomlSource::of_text(text, "a.toml"), "a.toml"); }),
               HasSubstr("array.colour: found an unknown key"));
 }

@@ -93,11 +93,8 @@ std::string command_of(const SizeOptions& o, const study::Sizing& sizing, const 
 std::string file_command(const SizeOptions& o, const fs::path& folder) {
   CommonOptions common = o.common;
   common.array = (folder / "size.toml").string();
-  const auto of_array = [](const std::string& word) {
-    return word.rfind("array.", 0) == 0 || word.rfind("formats.", 0) == 0;
-  };
   auto& words = common.overrides;
-  words.erase(std::remove_if(words.begin(), words.end(), of_array), words.end());
+  words.erase(std::remove_if(words.begin(), words.end(), input::is_array_key), words.end());
   return "hopmesh run " + words_of(common) + (o.steps > 0 ? fmt::format(" --steps {}", o.steps) : "");
 }
 
