@@ -1,7 +1,7 @@
 // Which arrays can be built (validate) and the ones that have names (presets).
 #pragma once
 
-#include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/array_keys.h"
 
 namespace hopmesh::spec {
 
@@ -10,18 +10,7 @@ struct SpecFault {
   std::string key, found, expected;
 };
 
-// What the rules below allow.
-inline constexpr int least_width = 4, most_width = 32; ///< of every format but the accumulator's
-inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
-inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
-inline constexpr int most_lanes = 64;
-inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
-
 namespace detail {
-
-inline std::string from_to(int least, int most) {
-  return std::to_string(least) + " to " + std::to_string(most);
-}
 
 inline std::optional<SpecFault> format_fault(const SignalClass& signal, const NumberFormat& f) {
   const std::string key = std::string("formats.") + signal.name;
@@ -67,17 +56,12 @@ inline std::optional<SpecFault> formats_fault(const ArraySpec& a, std::size_t ta
 } // namespace detail
 
 /// Nothing if the array can be built for rows of at most `taps` inputs, else the first rule it breaks.
-inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 1) {
+inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 1,
+                                         ArrayTable table = array_keys) {
   if (auto fault = detail::formats_fault(a, taps)) return fault;
-  if (a.lanes < 1 || a.lanes > most_lanes)
-    return SpecFault{"array.lanes", std::to_string(a.lanes), detail::from_to(1, most_lanes)};
-  if (a.reciprocal_bits < least_reciprocal_bits || a.reciprocal_bits > most_reciprocal_bits)
-    return SpecFault{"array.reciprocal_bits", std::to_string(a.reciprocal_bits),
-                     detail::from_to(least_reciprocal_bits, most_reciprocal_bits)};
-  if (std::find(bus_widths.begin(), bus_widths.end(), a.bus_bits) == bus_widths.end())
-    return SpecFault{"array.bus_bits", std::to_string(a.bus_bits), "32, 64 or 128"};
-  if (!(a.clock_mhz > 0 && a.clock_mhz <= 10000))
-    return SpecFault{"array.clock_mhz", std::to_string(a.clock_mhz), "above 0, at most 10000"};
+  ArraySpec copy = a;
+  for (const ArrayKey& key : table(copy))
+    if (!key.allowed.takes(key.place)) return SpecFault{key.name, key.value(), key.allowed.words};
   return std::nullopt;
 }
 

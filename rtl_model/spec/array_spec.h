@@ -60,19 +60,23 @@ struct Formats {
   NumberFormat link{16, 2, Rounding::rnd, Overflow::sat};
 };
 
-/// A class of signals: its name in keys, where its format stands, and the integer bits that it cannot do
-/// without (two where +1 must have a code).
+/// A class of signals: its name in keys, where its format stands, what it holds, and the integer bits that it
+/// cannot do without (two where +1 must have a code).
 struct SignalClass {
   const char* name;
   NumberFormat Formats::*format;
+  const char* meaning;
   int least_integer_bits;
 };
-inline constexpr std::array<SignalClass, 6> signal_classes{{{"weight", &Formats::weight, 1},
-                                                            {"bias", &Formats::bias, 1},
-                                                            {"accumulator", &Formats::accumulator, 1},
-                                                            {"drive", &Formats::drive, 2},
-                                                            {"state", &Formats::state, 2},
-                                                            {"link", &Formats::link, 2}}};
+inline constexpr std::array<SignalClass, 6> signal_classes{{
+    {"weight", &Formats::weight, "a weight as the host writes it", 1},
+    {"bias", &Formats::bias, "a bias as the host writes it", 1},
+    {"accumulator", &Formats::accumulator, "the register of s; `\"exact\"`: as wide as the longest row needs",
+     1},
+    {"drive", &Formats::drive, "u", 2},
+    {"state", &Formats::state, "V in the output stage", 2},
+    {"link", &Formats::link, "V as neighbours see it, no finer than the state", 2},
+}};
 
 /// An array that nobody changed is the preset `guarded`, the default (docs/decisions/0002-default-array.md).
 struct ArraySpec {

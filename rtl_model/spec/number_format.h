@@ -75,6 +75,8 @@ std::optional<Mode> mode_named(std::string_view name, const std::array<std::stri
 /// Reads "fixed<W,I>", "fixed<W,I,Q>" or "fixed<W,I,Q,O>"; SystemC's defaults (SC_TRN, SC_WRAP) where left
 /// out. Nothing when the text is no format. Widths are judged by validate() of array_spec.h.
 inline std::optional<NumberFormat> parse_format(const std::string& text) {
+  constexpr std::size_t longest = 80; // std::regex recurses over its text
+  if (text.size() > longest) return std::nullopt;
   static const std::regex shape(
       R"(\s*fixed\s*<\s*(\d{1,3})\s*,\s*(-?\d{1,3})\s*(?:,\s*(\w+)\s*)?(?:,\s*(\w+)\s*)?>\s*)");
   std::smatch part;

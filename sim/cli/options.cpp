@@ -32,8 +32,14 @@ std::string words_of(const CommonOptions& options) {
   return words;
 }
 
+void tell(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "hopmesh: note: {}\n", note);
+}
+
 levels::Prepared prepare(const CommonOptions& options) {
-  return levels::prepare(options.scene, options.array, options.overrides);
+  levels::Prepared prepared = levels::prepare(options.scene, options.array, options.overrides);
+  tell(prepared.inputs.notes);
+  return prepared;
 }
 
 void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names) {

@@ -24,7 +24,11 @@ std::string shell_word(const std::string& word);
 /// out/NAME; a slash in a name must not lead elsewhere.
 std::string default_folder(std::string name);
 
-/// Reads and checks everything, the array's rules for this very mesh included. Throws input::InputError.
+/// One line each on stderr, about what is no mistake.
+void tell(const std::vector<std::string>& notes);
+
+/// Reads and checks everything, the array's rules for this very mesh included, and tells which keys have no
+/// effect. Throws input::InputError.
 levels::Prepared prepare(const CommonOptions& options);
 
 /// Throws input::InputError for a name that is none of `names`; `flag` is where it stood.

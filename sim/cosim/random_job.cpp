@@ -1,6 +1,7 @@
 // Random meshes, arrays and codes.
 #include "sim/cosim/random_job.h"
 
+#include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/array_rules.h"
 
 #include <set>
@@ -152,11 +153,15 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
         static_cast<int>(dice.between(spec::least_reciprocal_bits, spec::most_reciprocal_bits));
     a.bus_bits = spec::bus_widths[dice.below(spec::bus_widths.size())];
     a.exact_accumulator = dice.one_in(2);
-    a.formats.weight = random_format(dice, 1);
-    a.formats.bias = random_format(dice, 1);
-    a.formats.drive = random_format(dice, 2);
-    a.formats.state = random_format(dice, 2);
-    a.formats.link = dice.one_in(2) ? a.formats.state : random_format(dice, 2);
+    for (const spec::SignalClass& signal : spec::signal_classes)
+      if (signal.format != &spec::Formats::accumulator) {
+        const bool as_state = signal.format == &spec::Formats::link && dice.one_in(2);
+        spec::NumberFormat& format = a.formats.*signal.format;
+        if (as_state)
+          format = a.formats.state;
+        else
+          format = random_format(dice, signal.least_integer_bits);
+      }
     a.formats.accumulator = random_format(dice, 1);
     a.formats.accumulator.width = static_cast<int>(dice.between(spec::least_width, spec::most_sum_width));
     const int width = a.formats.accumulator.width;
@@ -198,16 +203,13 @@ ArrayJob random_job(std::uint64_t seed, std::size_t most_cells) {
 }
 
 std::string describe(const ArrayJob& job) {
-  const spec::ArraySpec& a = job.array;
-  const auto name = [](std::string_view v) { return std::string(v); };
-  return std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell) +
-         ", " + name(spec::name_of(a.schedule)) + ", " + name(spec::name_of(a.output)) + ", " +
-         name(spec::name_of(a.normaliser)) + " " + std::to_string(a.reciprocal_bits) + ", lanes " +
-         std::to_string(a.lanes) + ", bus " + std::to_string(a.bus_bits) + ", weight " +
-         a.formats.weight.text() + ", bias " + a.formats.bias.text() + ", accumulator " +
-         (a.exact_accumulator ? "exact" : a.formats.accumulator.text()) + ", drive " +
-         a.formats.drive.text() + ", state " + a.formats.state.text() + ", link " + a.formats.link.text() +
-         ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);
+  spec::ArraySpec array = job.array;
+  std::string text =
+      std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell);
+  for (const spec::ArrayKey& key : spec::answer_keys(spec::array_keys(array)))
+    text += ", " + key.word() + " " + key.value();
+  return text + ", threshold " + std::to_string(job.threshold) + ", max_sweeps " +
+         std::to_string(job.max_sweeps);
 }
 
 } // namespace hopmesh::cosim

@@ -1,8 +1,10 @@
 #include "sim/cosim/shrink.h"
 
+#include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/array_rules.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hopmesh::cosim {
 
@@ -53,6 +55,27 @@ ArrayJob rebuilt(const ArrayJob& job, const Kept& kept) {
   }
   return small;
 }
+
+/// Makes the value of a key the plainest; false where it was. Of a format: its rounding, or its overflow.
+struct Plain {
+  int plainest;
+  bool overflow;
+
+  template <typename T> bool change(T& value, T plain) const {
+    return !overflow && std::exchange(value, plain) != plain;
+  }
+
+  bool operator()(int* at) const { return change(*at, plainest); }
+  bool operator()(const spec::Choice& choice) const {
+    return change(*choice.at, static_cast<std::uint8_t>(plainest));
+  }
+  bool operator()(const spec::Accumulator& sum) const { return change(*sum.exact, true); }
+  bool operator()(spec::NumberFormat* f) const {
+    if (overflow) return std::exchange(f->overflow, spec::Overflow::sat) != spec::Overflow::sat;
+    return change(f->rounding, spec::Rounding::trn);
+  }
+  bool operator()(double*) const { return false; }
+};
 
 class Shrinker {
  public:
@@ -152,37 +175,15 @@ class Shrinker {
         [&](ArrayJob& j) { std::fill_n((j.*codes).begin() + static_cast<std::ptrdiff_t>(first), count, 0); });
   }
 
-  template <typename T> bool plainer(T& (*member)(spec::ArraySpec&), T plain) {
-    if (member(job_.array) == plain) return false;
-    return try_change([&](ArrayJob& j) { member(j.array) = plain; });
-  }
-
   bool plainer_array() {
-    using spec::ArraySpec;
-    bool any = plainer<int>([](ArraySpec& a) -> int& { return a.lanes; }, 1);
-    any |= plainer<int>([](ArraySpec& a) -> int& { return a.bus_bits; }, 32);
-    any |= plainer<int>([](ArraySpec& a) -> int& { return a.reciprocal_bits; }, 18);
-    any |= plainer<bool>([](ArraySpec& a) -> bool& { return a.exact_accumulator; }, true);
-    any |=
-        plainer<spec::Output>([](ArraySpec& a) -> spec::Output& { return a.output; }, spec::Output::modified);
-    any |= plainer<spec::Normaliser>([](ArraySpec& a) -> spec::Normaliser& { return a.normaliser; },
-                                     spec::Normaliser::prescaled);
-    any |= plainer<spec::Schedule>([](ArraySpec& a) -> spec::Schedule& { return a.schedule; },
-                                   spec::Schedule::sequential);
-    for (spec::NumberFormat spec::Formats::*format :
-         {&spec::Formats::weight, &spec::Formats::bias, &spec::Formats::drive, &spec::Formats::state,
-          &spec::Formats::link})
-      any |= plainer_modes(format);
-    return any;
-  }
-
-  bool plainer_modes(spec::NumberFormat spec::Formats::*format) {
-    const spec::NumberFormat& f = job_.array.formats.*format;
     bool any = false;
-    if (f.rounding != spec::Rounding::trn)
-      any |= try_change([&](ArrayJob& j) { (j.array.formats.*format).rounding = spec::Rounding::trn; });
-    if (f.overflow != spec::Overflow::sat)
-      any |= try_change([&](ArrayJob& j) { (j.array.formats.*format).overflow = spec::Overflow::sat; });
+    for (std::size_t row = 0; row < spec::array_keys(job_.array).size(); ++row)
+      for (bool overflow : {false, true}) {
+        ArrayJob trial = job_;
+        const spec::ArrayKey key = spec::array_keys(trial.array)[row];
+        if (key.vectors_line > 0 && std::visit(Plain{key.plainest, overflow}, key.place))
+          any |= take(std::move(trial));
+      }
     return any;
   }
 

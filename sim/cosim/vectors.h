@@ -2,6 +2,7 @@
 // fill in and be judged by. docs/use/test-vectors.md describes the file.
 #pragma once
 
+#include "rtl_model/spec/array_keys.h"
 #include "sim/cosim/divergence.h"
 #include "sim/files/output_file.h"
 
@@ -21,7 +22,7 @@ struct VectorCase {
 /// Nothing has the file's name before commit().
 class VectorWriter {
  public:
-  explicit VectorWriter(const std::filesystem::path& path);
+  explicit VectorWriter(const std::filesystem::path& path, spec::ArrayTable table = spec::array_keys);
 
   void comment(const std::string& text);
   /// `bus`: of an array built for the job, which gives the answers; none: a blank case, to be filled in.
@@ -33,6 +34,7 @@ class VectorWriter {
   void write_answers(const ArrayJob& job, const hm_bus& bus);
 
   files::OutputFile file_;
+  const spec::ArrayTable table_;
 };
 
 /// A line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
@@ -47,7 +49,7 @@ struct AnswerLine {
 /// Reads a file line by line, however long it is; throws input::InputError with the line of a mistake.
 class VectorReader {
  public:
-  explicit VectorReader(const std::string& path);
+  explicit VectorReader(const std::string& path, spec::ArrayTable table = spec::array_keys);
 
   /// The next case, up to its answers (those of the case before are skipped); false at the end of the file.
   bool next(VectorCase& a_case);
@@ -66,15 +68,16 @@ class VectorReader {
   std::int32_t code(const std::string& word) const;
   void skip_answers();
   void read_array(spec::ArraySpec& array);
-  spec::NumberFormat read_format(const std::string& key);
-  std::optional<spec::NumberFormat> read_accumulator();
   void read_links(spec::Topology& topology);
   void check_links(const spec::Topology& topology, const std::vector<int>& lines) const;
   void check_rules(const spec::ArraySpec& array, const spec::Topology& topology) const;
   void read_neurons(ArrayJob& job);
   void read_phases(const ArrayJob& job);
 
+  friend struct KeyLine;
+
   const std::string path_;
+  const spec::ArrayTable table_;
   std::ifstream file_;
   std::string text_; ///< of the line at hand
   int line_ = 0;

@@ -16,20 +16,8 @@ namespace hopmesh::cosim {
 
 using input::in_quotes;
 
-namespace {
-
-template <std::size_t n> std::vector<std::string> names_in(const std::array<std::string_view, n>& names) {
-  return {names.begin(), names.end()};
-}
-
-std::optional<spec::NumberFormat> format_in(const std::vector<std::string>& words) {
-  constexpr std::size_t longest = 80; // the regular expression behind parse_format recurses over its text
-  return words.size() == 1 && words[0].size() <= longest ? spec::parse_format(words[0]) : std::nullopt;
-}
-
-} // namespace
-
-VectorReader::VectorReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+VectorReader::VectorReader(const std::string& path, spec::ArrayTable table)
+    : path_(path), table_(table), file_(path, std::ios::binary) {
   const std::string kind = "a file of test vectors";
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -116,62 +104,64 @@ bool VectorReader::next(VectorCase& a_case) {
 
 // ---- the array ----
 
-spec::NumberFormat VectorReader::read_format(const std::string& key) {
-  const std::string shape = key + " FORMAT, such as fixed<16,2,SC_TRN_ZERO,SC_SAT>";
-  const Words w = expect(key, shape);
-  key_lines_.push_back({key, line_});
-  const auto format = format_in(w);
-  if (!format) fail(in_quotes(text_), shape);
-  return *format;
-}
+/// The line of one key: its words go where the value stands, or are refused.
+struct KeyLine {
+  VectorReader& reader;
+  const std::string key;
 
-// Nothing: exact.
-std::optional<spec::NumberFormat> VectorReader::read_accumulator() {
-  const std::string shape = "accumulator exact, or accumulator FORMAT";
-  const Words w = expect("accumulator", shape);
-  key_lines_.push_back({"accumulator", line_});
-  if (w.size() == 1 && w[0] == "exact") return std::nullopt;
-  const auto format = format_in(w);
-  if (!format) fail(in_quotes(text_), shape);
-  return format;
-}
+  VectorReader::Words words(const std::string& shape) const { return reader.expect(key, shape); }
+  [[noreturn]] void fail(const std::string& shape, const std::string& nearest = "") const {
+    reader.fail(in_quotes(reader.text_), shape, nearest);
+  }
+
+  void operator()(const spec::Choice& choice) const {
+    const std::vector<std::string> names(choice.names, choice.names + choice.count);
+    const std::string shape = fmt::format("{} {}", key, fmt::join(names, " or "));
+    const auto w = words(shape);
+    const auto at = w.size() == 1 ? std::find(names.begin(), names.end(), w[0]) : names.end();
+    if (at == names.end()) fail(shape, w.empty() ? "" : input::nearest_name(w[0], names));
+    *choice.at = static_cast<std::uint8_t>(at - names.begin());
+  }
+
+  void operator()(int* at) const {
+    const std::string shape = key + " N";
+    const auto w = words(shape);
+    if (w.size() != 1) fail(shape);
+    *at = static_cast<int>(reader.number(w[0], 0, 1'000'000, key));
+  }
+
+  void operator()(spec::NumberFormat* at) const {
+    read_format(key + " FORMAT, such as fixed<16,2,SC_TRN_ZERO,SC_SAT>", at);
+  }
+
+  void operator()(const spec::Accumulator& sum) const {
+    *sum.exact = !read_format("accumulator exact, or accumulator FORMAT", sum.format, "exact");
+  }
+
+  /// False where the line says `none` instead.
+  bool read_format(const std::string& shape, spec::NumberFormat* at, const std::string& none = "") const {
+    const auto w = words(shape);
+    if (!none.empty() && w == VectorReader::Words{none}) return false;
+    const auto format = w.size() == 1 ? spec::parse_format(w[0]) : std::nullopt;
+    if (!format) fail(shape);
+    *at = *format;
+    return true;
+  }
+
+  void operator()(double*) const {} // no answer depends on one
+};
 
 void VectorReader::read_array(spec::ArraySpec& a) {
   a.name = "vectors";
-  const auto choice = [this](const char* key, auto names, auto& target) {
-    const auto valid = names_in(names);
-    const std::string shape = fmt::format("{} {}", key, fmt::join(valid, " or "));
-    const Words w = expect(key, shape);
-    using Mode = std::remove_reference_t<decltype(target)>;
-    const auto mode = w.size() == 1 ? spec::mode_named<Mode>(w[0], names) : std::optional<Mode>();
-    if (!mode) fail(in_quotes(text_), shape, w.empty() ? "" : input::nearest_name(w[0], valid));
-    target = *mode;
-  };
-  const auto count = [this](const char* key, int& target) {
-    const Words w = expect(key, fmt::format("{} N", key));
-    key_lines_.push_back({key, line_});
-    if (w.size() != 1) fail(in_quotes(text_), fmt::format("{} N", key));
-    target = static_cast<int>(number(w[0], 0, 1'000'000, key));
-  };
-  choice("schedule", spec::schedule_names, a.schedule);
-  choice("output", spec::output_names, a.output);
-  choice("normaliser", spec::normaliser_names, a.normaliser);
-  count("reciprocal_bits", a.reciprocal_bits);
-  count("lanes", a.lanes);
-  count("bus_bits", a.bus_bits);
-  a.formats.weight = read_format("weight");
-  a.formats.bias = read_format("bias");
-  const auto accumulator = read_accumulator();
-  a.exact_accumulator = !accumulator;
-  if (accumulator) a.formats.accumulator = *accumulator;
-  a.formats.drive = read_format("drive");
-  a.formats.state = read_format("state");
-  a.formats.link = read_format("link");
+  for (const spec::ArrayKey& key : spec::answer_keys(table_(a))) {
+    std::visit(KeyLine{*this, key.word()}, key.place);
+    key_lines_.push_back({key.word(), line_});
+  }
 }
 
 // A rule that the array breaks, told at the line of its key.
 void VectorReader::check_rules(const spec::ArraySpec& array, const spec::Topology& topology) const {
-  const auto fault = spec::validate(array, topology.most_taps());
+  const auto fault = spec::validate(array, topology.most_taps(), table_);
   if (!fault) return;
   const std::string key = fault->key.substr(fault->key.find('.') + 1);
   for (const auto& [name, line] : key_lines_)

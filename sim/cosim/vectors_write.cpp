@@ -8,19 +8,17 @@ namespace hopmesh::cosim {
 
 namespace {
 
-std::string array_text(const ArrayJob& job) {
-  const spec::ArraySpec& a = job.array;
-  const spec::Formats& f = a.formats;
-  std::string text = fmt::format(
-      "schedule {}\noutput {}\nnormaliser {}\nreciprocal_bits {}\nlanes {}\nbus_bits {}\n",
-      name_of(a.schedule), name_of(a.output), name_of(a.normaliser), a.reciprocal_bits, a.lanes, a.bus_bits);
-  text += fmt::format("weight {}\nbias {}\n", f.weight.text(), f.bias.text());
-  if (a.exact_accumulator)
-    text += fmt::format("# the exact accumulator is {}\naccumulator exact\n",
-                        spec::accumulator_format(a, job.topology.most_taps()).text());
-  else
-    text += fmt::format("accumulator {}\n", f.accumulator.text());
-  return text + fmt::format("drive {}\nstate {}\nlink {}\n", f.drive.text(), f.state.text(), f.link.text());
+std::string array_text(const ArrayJob& job, spec::ArrayTable table) {
+  spec::ArraySpec array = job.array;
+  std::string text;
+  for (const spec::ArrayKey& key : spec::answer_keys(table(array))) {
+    const bool exact = std::holds_alternative<spec::Accumulator>(key.place) && array.exact_accumulator;
+    if (exact)
+      text += fmt::format("# the exact accumulator is {}\n",
+                          spec::accumulator_format(array, job.topology.most_taps()).text());
+    text += fmt::format("{} {}\n", key.word(), key.value());
+  }
+  return text;
 }
 
 std::string links_text(const spec::Topology& t) {
@@ -47,7 +45,8 @@ std::string neuron_text(const ArrayJob& job, std::size_t neuron) {
 
 } // namespace
 
-VectorWriter::VectorWriter(const std::filesystem::path& path) : file_(path) {
+VectorWriter::VectorWriter(const std::filesystem::path& path, spec::ArrayTable table)
+    : file_(path), table_(table) {
   file_.write(fmt::format("{}\n", vectors_header));
 }
 
@@ -68,7 +67,7 @@ void VectorWriter::add(const VectorCase& a_case, const hm_bus* bus) {
 void VectorWriter::write_job(const VectorCase& a_case) {
   const ArrayJob& job = a_case.job;
   file_.write(fmt::format("\ncase {}\n", a_case.name));
-  file_.write(array_text(job));
+  file_.write(array_text(job, table_));
   file_.write(links_text(job.topology));
   file_.write(fmt::format("threshold {}\nmax_sweeps {}\n", job.threshold, job.max_sweeps));
   for (std::size_t k = 0; k < job.topology.neurons(); ++k) file_.write(neuron_text(job, k));

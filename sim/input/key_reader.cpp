@@ -33,12 +33,6 @@ double KeyReader::number(const TomlValue& value, const std::string& key, const R
   return x;
 }
 
-bool KeyReader::real(const std::string& key, double& target, const Range& range) {
-  const TomlValue* found = value(key);
-  if (found) target = number(*found, key, range);
-  return found;
-}
-
 bool KeyReader::integer(const std::string& key, std::int64_t& target, std::int64_t low, std::int64_t high) {
   const TomlValue* found = value(key);
   if (!found) return false;
@@ -49,13 +43,6 @@ bool KeyReader::integer(const std::string& key, std::int64_t& target, std::int64
   return true;
 }
 
-bool KeyReader::integer(const std::string& key, int& target, int low, int high) {
-  std::int64_t wide = target;
-  const bool found = integer(key, wide, std::int64_t{low}, std::int64_t{high});
-  target = static_cast<int>(wide);
-  return found;
-}
-
 bool KeyReader::text(const std::string& key, std::string& target, const std::string& expected) {
   const TomlValue* found = value(key);
   if (!found) return false;
@@ -63,36 +50,6 @@ bool KeyReader::text(const std::string& key, std::string& target, const std::str
   if (!words || words->empty() || has_control(*words)) throw source_.error(*found, key, expected);
   target = *words;
   return true;
-}
-
-bool KeyReader::flag(const std::string& key, bool& target) {
-  const TomlValue* found = value(key);
-  if (!found) return false;
-  if (!found->as<bool>()) throw source_.error(*found, key, "true or false");
-  target = *found->as<bool>();
-  return true;
-}
-
-bool KeyReader::vector(const std::string& key, std::array<double, 3>& target) {
-  const TomlValue* found = value(key);
-  if (!found) return false;
-  const auto* items = found->as<std::vector<TomlValue>>();
-  if (!items || items->size() != target.size()) throw source_.error(*found, key, "three numbers, [x, y, z]");
-  for (std::size_t k = 0; k < target.size(); ++k)
-    target[k] = number((*items)[k], fmt::format("{}[{}]", key, k), any_real);
-  return true;
-}
-
-bool KeyReader::choice(const std::string& key, std::string& target, const std::vector<std::string>& names) {
-  const TomlValue* found = value(key);
-  if (!found) return false;
-  const auto* name = found->as<std::string>();
-  for (const std::string& valid : names)
-    if (name && *name == valid) {
-      target = valid;
-      return true;
-    }
-  throw source_.error(*found, key, one_of(names), name ? nearest_name(*name, names) : "");
 }
 
 bool KeyReader::known_table(const std::string& key) const {

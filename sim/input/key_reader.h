@@ -4,7 +4,6 @@
 
 #include "sim/input/toml_source.h"
 
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -22,6 +21,9 @@ inline constexpr Range any_real{-1e15, 1e15, "a number from -1e15 to 1e15"};
 inline constexpr Range above_zero{1e-15, 1e15, "a number above 0 (1e-15 to 1e15)"};
 inline constexpr Range from_zero{0, 1e15, "a number from 0 to 1e15"};
 inline constexpr Range zero_to_one{0, 1, "a number from 0 to 1"};
+constexpr Range in_words(const char* words) {
+  return {-HUGE_VAL, HUGE_VAL, words};
+}
 
 class KeyReader {
  public:
@@ -30,15 +32,11 @@ class KeyReader {
   /// The value of a key, which is known from now on; nullptr where it is absent.
   const TomlValue* value(const std::string& key);
 
+  const TomlSource& source() const { return source_; }
+
   /// Each returns whether the key is there.
-  bool real(const std::string& key, double& target, const Range& range);
   bool integer(const std::string& key, std::int64_t& target, std::int64_t low, std::int64_t high);
-  bool integer(const std::string& key, int& target, int low, int high);
   bool text(const std::string& key, std::string& target, const std::string& expected);
-  bool flag(const std::string& key, bool& target);
-  bool vector(const std::string& key, std::array<double, 3>& target);
-  /// Any of a few names.
-  bool choice(const std::string& key, std::string& target, const std::vector<std::string>& names);
 
   /// The number in a value that may be written as an integer.
   double number(const TomlValue& value, const std::string& key, const Range& range) const;

@@ -29,8 +29,8 @@ hm_step_parameters motion_of(const scene::Scene& scene) {
   m.gamma = scene.probe.gamma;
   m.beta = scene.probe.beta;
   m.acceleration_memory = scene.probe.acceleration_memory;
-  m.energy_of_all_springs = scene.probe.energy_springs == "all";
-  m.force_on_acceleration = scene.probe.force_on == "acceleration";
+  m.energy_of_all_springs = scene.probe.energy_springs == scene::EnergySprings::all;
+  m.force_on_acceleration = scene.probe.force_on == scene::ForceOn::acceleration;
   for (std::size_t x = 0; x < 3; ++x)
     m.force[x] = scene.force.gravity[x] + (scene.force.wind ? (*scene.force.wind)[x] : 0.0);
   m.threshold = scene.relax.threshold;

@@ -25,8 +25,8 @@ Motion motion_of(const scene::Scene& scene) {
   motion.gamma = scene.probe.gamma;
   motion.beta = scene.probe.beta;
   motion.acceleration_memory = scene.probe.acceleration_memory;
-  motion.energy_of_all_springs = scene.probe.energy_springs == "all";
-  motion.force_on_acceleration = scene.probe.force_on == "acceleration";
+  motion.energy_of_all_springs = scene.probe.energy_springs == scene::EnergySprings::all;
+  motion.force_on_acceleration = scene.probe.force_on == scene::ForceOn::acceleration;
   motion.mass = scene.mesh.mass;
   motion.drag = scene.force.drag;
   motion.formulation = formulation_named(scene.formulation_name());

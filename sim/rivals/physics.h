@@ -20,6 +20,9 @@ Vector by_component(const Vector& by_node);
 struct Surroundings {
   scene::Vector3 force{0, 0, 0}; ///< acceleration, m/s^2
   double drag = 0;               ///< c, 1/s
+
+  /// All of them, for whoever tells two surroundings apart.
+  std::vector<double> numbers() const { return {force[0], force[1], force[2], drag}; }
 };
 
 /// Gravity plus wind; the air's drag, and friction, a factor on v each step, as the drag

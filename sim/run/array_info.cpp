@@ -1,5 +1,6 @@
 #include "sim/run/array_info.h"
 
+#include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/schedule.h"
 
 #include <algorithm>
@@ -34,8 +35,7 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
       {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
       {"output stage", std::string(name_of(array.output))},
       {"normaliser", normaliser_text(array)},
-      {"schedule",
-       fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
+      {"schedule", fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
       {"host bus", fmt::format("{} bits", array.bus_bits)},
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };
@@ -44,16 +44,14 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
   return {"Array", rows};
 }
 
-FigureTable formats(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
-  const spec::Formats& f = array.formats;
-  const auto accumulator = spec::accumulator_format(array, mesh.topology().most_taps());
-  return {"Formats",
-          {{"weight", f.weight.text()},
-           {"bias", f.bias.text()},
-           {"accumulator", accumulator.text() + (array.exact_accumulator ? " (exact)" : "")},
-           {"drive", f.drive.text()},
-           {"state", f.state.text()},
-           {"link", f.link.text()}}};
+FigureTable formats(const levels::BuiltMesh& mesh, spec::ArraySpec array) {
+  std::vector<pictures::Figure> rows;
+  const std::string sum = spec::accumulator_format(array, mesh.topology().most_taps()).text();
+  for (const spec::ArrayKey& key : spec::format_keys(array)) {
+    const bool exact = key.value() == "exact";
+    rows.push_back({key.word(), exact ? sum + " (exact)" : key.value()});
+  }
+  return {"Formats", rows};
 }
 
 FigureTable cycles(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
@@ -87,7 +85,7 @@ FigureTable memory(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) 
 
 std::string formulation(const scene::Scene& scene) {
   if (scene.motion.formulation == scene::Formulation::probe) return "probe: outputs are directions";
-  return "incremental, " + scene.incremental.rule +
+  return "incremental, " + name_of(scene.incremental.rule) +
          (scene.is_static() ? ": outputs are scaled ways towards rest"
                             : ": outputs are scaled changes of acceleration");
 }
@@ -113,32 +111,20 @@ FigureTable motion(const scene::Scene& scene) {
                         grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
 }
 
-std::vector<pictures::Figure> forces_left_out(const scene::Scene& scene) {
+/// What values of keys leave out, as the table has it.
+std::vector<pictures::Figure> values_left_out(scene::Scene scene) {
   std::vector<pictures::Figure> rows;
-  if (scene.force.gravity == scene::Vector3{0, 0, 0}) rows.push_back({"gravity", "none given"});
-  if (!scene.force.wind) rows.push_back({"wind", "none given"});
-  if (scene.force.drag == 0 && !scene.is_static()) rows.push_back({"drag of the air", "none given"});
-  if (scene.motion.friction == 1 && !scene.is_static()) rows.push_back({"friction", "a factor of 1: none"});
+  for (const input::Key& key : scene_keys(scene))
+    if (key.when.holds && input::is_left_out(key)) rows.push_back({key.left_out.what, key.left_out.words});
   return rows;
 }
 
 std::vector<pictures::Figure> terms_left_out(const scene::Scene& scene) {
-  std::vector<pictures::Figure> rows;
-  if (scene.mesh.rest == 0.0)
-    rows.push_back({"error of the expansion", "rest length 0: the energy is quadratic"});
-  if (scene.motion.formulation == scene::Formulation::incremental) {
-    if (scene.is_static())
-      rows.push_back({"inertia, speed", "static: each step minimises springs and weight alone"});
-    else
-      rows.push_back({"unit-length term", "the probe's: inertia stands in its place"});
-    if (scene.motion.friction == 0 && !scene.is_static())
-      rows.push_back({"velocity", "friction 0: each step starts from rest"});
-    return rows;
-  }
-  rows.push_back({"inertia", "mass moves no node in the probe"});
-  if (scene.probe.acceleration_memory == 0)
-    rows.push_back({"acceleration before", "memory 0: each step probes anew"});
-  if (scene.probe.beta == 0) rows.push_back({"unit-length term", "beta 0: outputs of any length"});
+  if (scene.motion.formulation == scene::Formulation::probe)
+    return {{"inertia", "mass moves no node in the probe"}};
+  if (scene.is_static()) return {{"inertia, speed", "static: each step minimises springs and weight alone"}};
+  std::vector<pictures::Figure> rows{{"unit-length term", "the probe's: inertia stands in its place"}};
+  if (scene.motion.friction == 0) rows.push_back({"velocity", "friction 0: each step starts from rest"});
   return rows;
 }
 
@@ -160,12 +146,8 @@ FigureTable left_out(const scene::Scene& scene, const levels::BuiltMesh& mesh) {
     rows.push_back({"springs to pinned nodes", fmt::format("{}: in the bias, no link", grouped(to_pinned))});
   if (among_pinned)
     rows.push_back({"springs between pinned nodes", fmt::format("{}: no link", grouped(among_pinned))});
-  const double kinds[] = {scene.mesh.structural, scene.mesh.shear, scene.mesh.bend};
-  const char* names[] = {"structural springs", "shear springs", "bend springs"};
-  for (int k = 0; k < 3; ++k)
-    if (scene.mesh.grid && kinds[k] == 0) rows.push_back({names[k], "weight 0: not built"});
   if (n == 2) rows.push_back({"third neuron of a cell", "planar: y never moves"});
-  for (const pictures::Figure& row : forces_left_out(scene)) rows.push_back(row);
+  for (const pictures::Figure& row : values_left_out(scene)) rows.push_back(row);
   for (const pictures::Figure& row : terms_left_out(scene)) rows.push_back(row);
   return {"Left out", rows};
 }

@@ -28,7 +28,7 @@ void Checkpointer::save(const levels::Motion& motion) {
   c.mesh = files_.mesh_hash();
   c.image = files_.image_hash();
   c.scene = scene::scene_text(facts.inputs.scene);
-  c.array = scene::array_text(facts.inputs.array);
+  c.array = input::array_text(facts.inputs.array);
   c.ranges = motion.ranges();
   c.streams = files_.sync(); // first: the checkpoint speaks of what is on the disk
   c.state = motion.state();

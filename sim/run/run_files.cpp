@@ -177,7 +177,7 @@ std::string RunFiles::manifest(const RunResult& result) const {
       {"seed", nullptr}, // nothing in a run is drawn at random
       {"outcome", name_of(result.outcome)},
       {"scene", scene::scene_text(facts_.inputs.scene)},
-      {"array", facts_.level->has_codes() ? Json(scene::array_text(facts_.inputs.array)) : Json(nullptr)},
+      {"array", facts_.level->has_codes() ? Json(input::array_text(facts_.inputs.array)) : Json(nullptr)},
       {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
       {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
   json["step_hashes"] = Json::array();

@@ -151,7 +151,7 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   view.outcome = result.sentence;
   view.good = result.outcome != Outcome::diverged;
   view.crest = scene.mesh.grid.has_value();
-  view.up = scene.mesh.up;
+  view.up = scene::axis_names[static_cast<std::size_t>(scene.mesh.up)];
   view.manifest = std::move(manifest);
   add_surface(mesh.mesh(), view);
   add_frames(positions, scene.motion.time_step, view);

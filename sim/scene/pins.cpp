@@ -45,7 +45,7 @@ void pin_end_of_file_mesh(const Scene& scene, const std::string& end, Mesh& mesh
   if (end == "corners")
     throw scene_error(scene, "mesh.pinned", "\"corners\"",
                       "left, right, top, bottom or node numbers in a mesh file");
-  const int up = scene.mesh.up[0] - 'x', across = up == 0 ? 1 : 0;
+  const int up = static_cast<int>(scene.mesh.up), across = up == 0 ? 1 : 0;
   const bool vertical = end == "top" || end == "bottom", high = end == "top" || end == "right";
   pin_end(mesh, vertical ? up : across, high, scene.mesh.pin_band, mesh.pinned);
 }

@@ -7,30 +7,23 @@
 
 namespace hopmesh::scene {
 
-namespace {
-
-using Overrides = std::vector<std::pair<std::string, std::string>>;
-
-bool is_array_key(const std::string& key) {
-  const std::string table = key.substr(0, key.find('.'));
-  return table == "array" || table == "formats";
-}
-
-} // namespace
-
 Inputs read_inputs(const std::string& scene, const std::string& array,
                    const std::vector<std::string>& overrides) {
   const std::string path = input::path_of(scene, input::Shipped::scene);
   input::TomlSource source = input::TomlSource::read(path, "a scene file");
-  Overrides of_array;
+  std::vector<std::pair<std::string, std::string>> of_array;
   for (const std::string& text : overrides) {
     auto split = input::split_override(text);
-    if (is_array_key(split.first))
+    if (input::is_array_key(split.first))
       of_array.push_back(std::move(split));
     else
       override_scene(source, split.first, split.second);
   }
-  return {read_scene(source, path), input::read_array(array, of_array)};
+  Inputs inputs{read_scene(source, path), {}};
+  Scene fresh;
+  inputs.notes = input::without_effect(source, scene_keys(inputs.scene), scene_keys(fresh));
+  inputs.array = input::read_array(array, of_array, inputs.notes);
+  return inputs;
 }
 
 namespace {

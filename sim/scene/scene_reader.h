@@ -11,7 +11,7 @@ namespace hopmesh::scene {
 void override_scene(input::TomlSource& source, const std::string& key, const std::string& text);
 
 /// `path` names the scene file, for the default name and for finding the mesh file beside it.
-Scene read_scene(const input::TomlSource& source, const std::string& path);
+Scene read_scene(const input::TomlSource& source, const std::string& path, SceneTable table = scene_keys);
 
 /// A mistake that only shows when the mesh is built, placed at the key that caused it.
 input::InputError scene_error(const Scene& scene, const std::string& key, const std::string& found,

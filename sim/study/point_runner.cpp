@@ -64,8 +64,7 @@ StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& me
   StabilityFacts facts;
   facts.diverged = result.outcome == run::Outcome::diverged;
   facts.outputs = mesh.topology().neurons();
-  const scene::Scene& scene = inputs.scene;
-  facts.friction = scene.motion.friction / (1 + scene.force.drag * scene.motion.time_step);
+  facts.friction = scene::kept_speed(inputs.scene.motion, inputs.scene.force);
   return facts;
 }
 

@@ -9,16 +9,16 @@
 
 namespace hopmesh::study {
 
-const char* const knob_names[knob_count] = {"formats.weight",  "formats.bias",     "formats.drive",
-                                            "formats.state",   "formats.link",     "array.reciprocal_bits",
-                                            "relax.threshold", "relax.max_sweeps", "array.lanes"};
-
 namespace {
 
-/// The formats of the first five knobs.
-spec::NumberFormat& format_of(spec::Formats& f, std::size_t knob) {
-  spec::NumberFormat* const all[] = {&f.weight, &f.bias, &f.drive, &f.state, &f.link};
-  return *all[knob];
+std::vector<std::string> names_of_knobs() {
+  std::vector<std::string> names;
+  spec::ArraySpec any;
+  for (const spec::ArrayKey& key : spec::format_keys(any))
+    if (std::holds_alternative<spec::NumberFormat*>(key.place)) names.push_back(key.name);
+  for (const char* name : {"array.reciprocal_bits", "relax.threshold", "relax.max_sweeps", "array.lanes"})
+    names.emplace_back(name);
+  return names;
 }
 
 int integer_bits_for(const levels::SignalRange& seen) {
@@ -31,6 +31,8 @@ int integer_bits_for(const levels::SignalRange& seen) {
 }
 
 } // namespace
+
+const std::vector<std::string> knob_names = names_of_knobs();
 
 Sizing::Sizing(const scene::Inputs& inputs, const levels::BuiltMesh& mesh)
     : inputs_(inputs), mesh_(mesh), formats_(inputs.array.formats) {
@@ -58,25 +60,23 @@ Setting Sizing::widest() const {
   const auto bits = [](int fraction, const spec::NumberFormat& f) {
     return std::min(fraction, spec::most_width - f.integer_bits);
   };
-  const int state = bits(room, formats_.state), weight = bits(room / 2, formats_.weight);
-  return {weight,
-          bits(room, formats_.bias),
-          bits(room, formats_.drive),
-          state,
-          std::min(state, bits(room - weight, formats_.link)),
-          inputs_.array.normaliser == spec::Normaliser::reciprocal ? spec::most_reciprocal_bits
-                                                                   : inputs_.array.reciprocal_bits,
-          scene_threshold,
-          static_cast<int>(inputs_.scene.relax.max_sweeps),
-          inputs_.array.lanes};
+  Setting all(knob_count);
+  for (std::size_t knob = 0; knob < format_knobs; ++knob) all[knob] = bits(room, formats_.*format_of(knob));
+  all[k_weight] = bits(room / 2, formats_.weight);
+  all[k_link] = std::min(all[k_state], bits(room - all[k_weight], formats_.link));
+  const bool reciprocal = inputs_.array.normaliser == spec::Normaliser::reciprocal;
+  all[k_reciprocal] = reciprocal ? spec::most_reciprocal_bits : inputs_.array.reciprocal_bits;
+  all[k_threshold] = scene_threshold;
+  all[k_sweeps] = static_cast<int>(inputs_.scene.relax.max_sweeps);
+  all[k_lanes] = inputs_.array.lanes;
+  return all;
 }
 
 int Sizing::least(std::size_t knob) const {
   if (knob == k_reciprocal) return spec::least_reciprocal_bits;
   if (knob == k_threshold) return 0;
-  if (knob > k_link) return 1;
-  spec::Formats f = formats_;
-  return std::max(1, spec::least_width - format_of(f, knob).integer_bits);
+  if (knob >= format_knobs) return 1;
+  return std::max(1, spec::least_width - (formats_.*format_of(knob)).integer_bits);
 }
 
 std::optional<Setting> Sizing::lowered(const Setting& from, std::size_t knob, int by) const {
@@ -92,8 +92,8 @@ std::optional<Setting> Sizing::lowered(const Setting& from, std::size_t knob, in
 spec::ArraySpec Sizing::array_of(const Setting& setting) const {
   spec::ArraySpec array = inputs_.array;
   array.formats = formats_;
-  for (std::size_t knob = k_weight; knob <= k_link; ++knob) {
-    spec::NumberFormat& format = format_of(array.formats, knob);
+  for (std::size_t knob = 0; knob < format_knobs; ++knob) {
+    spec::NumberFormat& format = array.formats.*format_of(knob);
     format.width = format.integer_bits + setting[knob];
   }
   if (array.normaliser == spec::Normaliser::reciprocal) array.reciprocal_bits = setting[k_reciprocal];
@@ -120,9 +120,8 @@ double Sizing::silicon_bits(const Setting& setting) const {
 
 std::string Sizing::text_of(const Setting& setting, std::size_t knob) const {
   if (knob == k_threshold) return fmt::format("{}", threshold_of(setting));
-  if (knob > k_link) return fmt::format("{}", setting[knob]);
-  spec::Formats f = array_of(setting).formats;
-  return format_of(f, knob).text();
+  if (knob >= format_knobs) return fmt::format("{}", setting[knob]);
+  return (array_of(setting).formats.*format_of(knob)).text();
 }
 
 std::vector<std::string> Sizing::overrides(const Setting& setting) const {

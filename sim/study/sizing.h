@@ -9,22 +9,36 @@
 
 namespace hopmesh::study {
 
+/// The formats that may be lowered, in the order of spec::signal_classes. The accumulator is none of them:
+/// its width follows from the others.
+inline constexpr std::size_t format_knobs = spec::signal_classes.size() - 1;
+constexpr spec::NumberFormat spec::Formats::*format_of(std::size_t knob) {
+  std::size_t at = 0;
+  for (const spec::SignalClass& signal : spec::signal_classes)
+    if (signal.format != &spec::Formats::accumulator && at++ == knob) return signal.format;
+  return nullptr;
+}
+constexpr std::size_t knob_of(spec::NumberFormat spec::Formats::*format) {
+  std::size_t knob = 0;
+  while (format_of(knob) != format) ++knob;
+  return knob;
+}
+
 /// Places in a Setting. Levels of formats are bits behind the point; a level of the threshold fewer doubles
 /// it, `scene_threshold` being the scene's own.
 enum Knob : std::size_t {
-  k_weight,
-  k_bias,
-  k_drive,
-  k_state,
-  k_link,
-  k_reciprocal,
+  k_weight = knob_of(&spec::Formats::weight),
+  k_state = knob_of(&spec::Formats::state),
+  k_link = knob_of(&spec::Formats::link),
+  k_reciprocal = format_knobs,
   k_threshold,
   k_sweeps,
-  k_lanes
+  k_lanes,
+  knob_count
 };
-inline constexpr std::size_t knob_count = 9;
 inline constexpr int scene_threshold = 20;
-extern const char* const knob_names[knob_count];
+/// Their keys.
+extern const std::vector<std::string> knob_names;
 
 class Sizing {
  public:

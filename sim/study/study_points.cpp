@@ -134,7 +134,7 @@ std::uint64_t check_points(const Study& study, const Methods& methods) {
     add(point.method);
     for (const std::string& label : point.labels) add(label);
     add(scene::scene_text(inputs.scene));
-    add(scene::array_text(inputs.array));
+    add(input::array_text(inputs.array));
   }
   return check.value();
 }

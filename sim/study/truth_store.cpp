@@ -22,7 +22,7 @@ constexpr double tolerance = 1e-11; // relative and absolute; far below what any
 // What the exact motion depends on: not the method, not the time step but through friction.
 std::uint64_t hash_of(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
                       const std::vector<double>& times) {
-  std::vector<double> numbers{around.force[0], around.force[1], around.force[2], around.drag};
+  std::vector<double> numbers = around.numbers();
   numbers.insert(numbers.end(), times.begin(), times.end());
   return levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
 }

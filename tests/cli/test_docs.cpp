@@ -178,7 +178,7 @@ TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
   for (const std::string& name : names_in(at("o"))) EXPECT_THAT(text, HasSubstr('`' + name + '`'));
   for (const std::string& name : read_table(at("o/solve.csv")).header)
     EXPECT_THAT(text, HasSubstr('`' + name + '`'));
-  for (const std::string& line : lines_of(good("problem").out))
+  for (const std::string& line : lines_of(good("problems").out))
     EXPECT_THAT(problems, HasSubstr('`' + split(line, ' ')[0] + '`'));
   static const std::regex flag("(--[a-z]+)");
   const std::string help = good("solve --help").out;
@@ -189,7 +189,7 @@ TEST_F(CliDocs, EveryFlagFileAndColumnOfSolveIsOnItsPage) {
 }
 
 TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
-  const auto folder = results_of("two-nodes --steps 1", "r");
+  const auto folder = results_of("two-nodes --steps 1 --check", "r");
   const std::string text = page("use/results-folder.md");
   for (const std::string& name : names_in(folder)) EXPECT_THAT(text, HasSubstr("| `" + name + "` |"));
   EXPECT_EQ(named_in(text, "steps.csv"), read_table(folder / "steps.csv").header);

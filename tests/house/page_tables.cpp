@@ -60,7 +60,10 @@ std::string with_tables(const std::string& page) {
       {"<!-- table registers -->", register_table()},
       {"<!-- table windows -->", window_table()},
       {"<!-- table steps -->", step_table(all(levels::all_step_columns))},
-      {"<!-- table results -->", result_table(all(study::all_result_columns))}};
+      {"<!-- table results -->", result_table(all(study::all_result_columns))},
+      {"<!-- table scene_keys -->", scene_table()},
+      {"<!-- table array_keys -->", array_table()},
+      {"<!-- table presets -->", preset_table()}};
   std::istringstream in(page);
   std::string printed;
   bool inside = false;

@@ -1,5 +1,6 @@
 // Pages show the tables of the program as they are.
 #include "firmware/registers.h"
+#include "sim/scene/scene.h"
 #include "tests/house/page_tables.h"
 #include "tests/house/tree.h"
 
@@ -9,7 +10,7 @@ namespace hopmesh::tests {
 namespace {
 
 TEST(PageTables, areAsTheProgramHasThem) {
-  for (const char* path : {registers_page, results_page, studies_page}) {
+  for (const char* path : {registers_page, scene_page, array_page, results_page, studies_page}) {
     const std::string page = text_of(path);
     EXPECT_NE(page.find("<!-- table "), std::string::npos) << path;
     EXPECT_EQ(page, with_tables(page)) << "stale: run build-check/print_tables " << path;
@@ -28,6 +29,23 @@ TEST(PageTables, showAColumnOfYourOwn) {
             "`against_reference.largest_swing` |\n");
   EXPECT_EQ(result_table({{"heat", "", "left behind", &study::PointRow::reference_at}}),
             "| column | meaning | unit |\n|---|---|---|\n| `heat@T` | left behind | |\n");
+}
+
+// A row is all that a page needs of a new key.
+TEST(PageTables, showARowOfYourOwn) {
+  static double spin = 0.5;
+  const input::Keys keys{input::Key("mesh.spin", &spin, {0, 2000, ""}, "turns").in_unit("1/s")};
+  const std::string table = key_table(keys);
+  EXPECT_NE(table.find("| `mesh.spin` | turns | 1/s | `0.5` | 0 to 2,000 |\n"), std::string::npos) << table;
+}
+
+TEST(PageTables, showEveryKeyOfAScene) {
+  scene::Scene scene;
+  const std::string page = text_of(scene_page);
+  for (const input::Key& key : scene_keys(scene))
+    if (!std::holds_alternative<input::Part>(key.place)) {
+      EXPECT_NE(page.find("| `" + key.name + "` | "), std::string::npos) << key.name;
+    }
 }
 
 TEST(PageTables, showEveryRegisterAndWindow) {

@@ -37,10 +37,10 @@ TEST(ArrayFile, readsEveryKey) {
 
 TEST(ArrayFile, presetsAreThere) {
   for (const spec::ArraySpec& a : spec::presets()) {
-    EXPECT_EQ(scene::array_text(array_named(a.name)), scene::array_text(a));
+    EXPECT_EQ(input::array_text(array_named(a.name)), input::array_text(a));
     EXPECT_EQ(array_named(a.name).name, a.name);
   }
-  EXPECT_EQ(scene::array_text(array_named("")), scene::array_text(spec::default_array()));
+  EXPECT_EQ(input::array_text(array_named("")), input::array_text(spec::default_array()));
 }
 
 TEST(ArrayFile, startsFromItsPresetAndIsNamedAfterItself) {

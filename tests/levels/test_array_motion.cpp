@@ -150,7 +150,7 @@ TEST(ArrayMotion, NumbersBeyondDoubleDivergeAndTheLastGoodStateStays) {
 TEST(ArrayMotion, TakesEveryKeyOfTheMotion) {
   scene::Scene s;
   s.motion.time_step = 0.1, s.motion.friction = 0.5;
-  s.probe = {7, 8, 0.25, "all", "acceleration"};
+  s.probe = {7, 8, 0.25, scene::EnergySprings::all, scene::ForceOn::acceleration};
   s.relax = {1e-3, 77, 3};
   s.force.gravity = {1, 2, 3}, s.force.wind = scene::Vector3{10, 20, 30};
   const hm_step_parameters m = levels::motion_of(s);

@@ -58,8 +58,8 @@ TEST(ReferenceMotion, IsReadFromTheScene) {
   EXPECT_EQ(motion.max_sweeps, 77u);
   EXPECT_EQ(motion.expansions, 3u);
   scene.force.wind.reset();
-  scene.probe.energy_springs = "own";
-  scene.probe.force_on = "velocity";
+  scene.probe.energy_springs = scene::EnergySprings::own;
+  scene.probe.force_on = scene::ForceOn::velocity;
   motion = motion_of(scene);
   EXPECT_EQ(motion.force, Eigen::Vector3d(1, 2, 3));
   EXPECT_FALSE(motion.energy_of_all_springs);

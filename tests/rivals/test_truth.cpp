@@ -38,7 +38,7 @@ TEST(RivalsTruth, OfTheBannerAgreesWithItself) {
 TEST(RivalsTruth, RefusesAStaticScene) {
   scene::Scene scene;
   EXPECT_NO_THROW(surroundings_of(scene));
-  scene.incremental.rule = "static";
+  scene.incremental.rule = scene::Rule::statics;
   EXPECT_NO_THROW(surroundings_of(scene)) << "the rule of a formulation that is not the scene's";
   scene.motion.formulation = scene::Formulation::incremental;
   EXPECT_THROW(surroundings_of(scene), input::InputError);

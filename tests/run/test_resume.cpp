@@ -99,18 +99,24 @@ TEST_P(Resume, AStateOfAnotherMeshIsNoState) {
   EXPECT_THROW(rig.motion->restore(state, {}), std::logic_error);
 }
 
+// Empty at levels without codes.
+std::string codes_of(const fs::path& folder) {
+  const fs::path file = folder / "outputs_raw.npy";
+  return fs::exists(file) ? content_of(file) : "";
+}
+
 TEST_P(Resume, AnyFolderGoesOnToTheSameFiles) {
   begin(6);
   go_on(6);
   const std::string positions = content_of(out / "positions.npy"), table = content_of(out / "steps.csv"),
-                    codes = content_of(out / "outputs_raw.npy"), glb = content_of(out / "mesh.glb"),
+                    codes = codes_of(out), glb = content_of(out / "mesh.glb"),
                     manifest = content_of(out / "manifest.json");
   for (std::uint64_t steps : {0, 1, 4, 5}) {
     begin(steps);
     if (steps < 3) go_on(3);
     go_on(6);
     EXPECT_TRUE(content_of(out / "positions.npy") == positions);
-    EXPECT_TRUE(content_of(out / "outputs_raw.npy") == codes);
+    EXPECT_TRUE(codes_of(out) == codes);
     EXPECT_TRUE(content_of(out / "mesh.glb") == glb);
     EXPECT_EQ(content_of(out / "steps.csv"), table);
     EXPECT_EQ(content_of(out / "manifest.json"), manifest);

@@ -50,7 +50,7 @@ TEST(Overrides, takeBareWords) {
       with({"mesh.pinned=left", "mesh.rest=natural", "name=my flag = 2", "probe.force_on = acceleration"});
   EXPECT_THAT(s.mesh.pinned, ElementsAre(Pin("left")));
   EXPECT_EQ(s.name, "my flag = 2");
-  EXPECT_EQ(s.probe.force_on, "acceleration");
+  EXPECT_EQ(s.probe.force_on, ForceOn::acceleration);
 }
 
 TEST(Overrides, replaceAWholeTable) {
@@ -69,7 +69,7 @@ TEST(Overrides, aFileReplacesTheGrid) {
   EXPECT_FALSE(s.mesh.grid);
   EXPECT_EQ(s.mesh.file, "/x/y.obj");
   EXPECT_EQ(s.mesh.shear, 0); // the grid's shear springs went with the grid
-  EXPECT_EQ(s.mesh.up, "y");
+  EXPECT_EQ(s.mesh.up, Axis::y);
 }
 
 TEST(Overrides, aFileIsMeantFromWhereTheUserStands) {
@@ -82,7 +82,7 @@ TEST(Overrides, aGridReplacesTheFile) {
   EXPECT_FALSE(s.mesh.file);
   EXPECT_EQ(s.mesh.grid->rows, 6);
   EXPECT_EQ(s.mesh.shear, 1.0);
-  EXPECT_EQ(s.mesh.up, "z");
+  EXPECT_EQ(s.mesh.up, Axis::z);
 }
 
 TEST(Overrides, reachTheArray) {

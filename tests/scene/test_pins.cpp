@@ -85,7 +85,7 @@ TEST(Pins, aStaticSceneNeedsOneInEveryPartOfTheMesh) {
   scene.mesh.pinned.emplace_back(std::int64_t{1});
   scene.motion.formulation = Formulation::incremental;
   EXPECT_EQ(complaint([&] { build_mesh(scene); }), "");
-  scene.incremental.rule = "static";
+  scene.incremental.rule = Rule::statics;
   EXPECT_THAT(complaint([&] { build_mesh(scene); }),
               ::testing::HasSubstr("mesh.pinned: found no pin in the part of node 3"));
   scene.mesh.pinned.emplace_back(std::int64_t{5});
@@ -93,7 +93,7 @@ TEST(Pins, aStaticSceneNeedsOneInEveryPartOfTheMesh) {
 }
 
 /// Vertices 0..4 at (0,0,0) (2,0,0) (2,0,2) (0,0,2) and the peak (1,1,1).
-Scene tent(const std::string& up, double band) {
+Scene tent(Axis up, double band) {
   Scene scene = file_scene(folder + "good/tent.obj");
   scene.mesh.up = up;
   scene.mesh.pin_band = band;
@@ -101,28 +101,28 @@ Scene tent(const std::string& up, double band) {
 }
 
 TEST(Pins, topAndBottomOfAFileMeshFollowItsUpAxis) {
-  EXPECT_THAT(held(tent("y", 0.02), {"top"}), ElementsAre(4));
-  EXPECT_THAT(held(tent("y", 0.02), {"bottom"}), ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(held(tent("z", 0.02), {"top"}), ElementsAre(2, 3));
-  EXPECT_THAT(held(tent("z", 0.02), {"bottom"}), ElementsAre(0, 1));
-  EXPECT_THAT(held(tent("x", 0.02), {"top"}), ElementsAre(1, 2));
+  EXPECT_THAT(held(tent(Axis::y, 0.02), {"top"}), ElementsAre(4));
+  EXPECT_THAT(held(tent(Axis::y, 0.02), {"bottom"}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(held(tent(Axis::z, 0.02), {"top"}), ElementsAre(2, 3));
+  EXPECT_THAT(held(tent(Axis::z, 0.02), {"bottom"}), ElementsAre(0, 1));
+  EXPECT_THAT(held(tent(Axis::x, 0.02), {"top"}), ElementsAre(1, 2));
 }
 
 TEST(Pins, leftAndRightOfAFileMeshAreAlongXUnlessThatIsUp) {
-  EXPECT_THAT(held(tent("z", 0.02), {"left"}), ElementsAre(0, 3));
-  EXPECT_THAT(held(tent("y", 0.02), {"right"}), ElementsAre(1, 2));
-  EXPECT_THAT(held(tent("x", 0.02), {"right"}), ElementsAre(4)); // along y
+  EXPECT_THAT(held(tent(Axis::z, 0.02), {"left"}), ElementsAre(0, 3));
+  EXPECT_THAT(held(tent(Axis::y, 0.02), {"right"}), ElementsAre(1, 2));
+  EXPECT_THAT(held(tent(Axis::x, 0.02), {"right"}), ElementsAre(4)); // along y
 }
 
 TEST(Pins, theBandIsAShareOfTheExtent) {
-  EXPECT_THAT(held(tent("z", 0.499), {"top"}), ElementsAre(2, 3));
-  EXPECT_THAT(held(tent("z", 0.5), {"top"}),
+  EXPECT_THAT(held(tent(Axis::z, 0.499), {"top"}), ElementsAre(2, 3));
+  EXPECT_THAT(held(tent(Axis::z, 0.5), {"top"}),
               ElementsAre(2, 3, 4));                             // the peak at half the extent: just within
-  EXPECT_THAT(held(tent("z", 0.0), {"top"}), ElementsAre(2, 3)); // the highest always
+  EXPECT_THAT(held(tent(Axis::z, 0.0), {"top"}), ElementsAre(2, 3)); // the highest always
 }
 
 TEST(Pins, theBandGrowsWithTheScale) {
-  Scene scene = tent("z", 0.5);
+  Scene scene = tent(Axis::z, 0.5);
   scene.mesh.scale = 100;
   EXPECT_THAT(held(scene, {"top"}), ElementsAre(2, 3, 4));
 }

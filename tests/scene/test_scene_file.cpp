@@ -48,9 +48,9 @@ TEST(SceneFile, readsEveryKeyOfTheMotion) {
   EXPECT_EQ(s.probe.gamma, 12345.678901234567);
   EXPECT_EQ(s.probe.beta, 0.75);
   EXPECT_EQ(s.probe.acceleration_memory, 0.5);
-  EXPECT_EQ(s.probe.energy_springs, "all");
-  EXPECT_EQ(s.probe.force_on, "acceleration");
-  EXPECT_EQ(s.incremental.rule, "bdf2");
+  EXPECT_EQ(s.probe.energy_springs, EnergySprings::all);
+  EXPECT_EQ(s.probe.force_on, ForceOn::acceleration);
+  EXPECT_EQ(s.incremental.rule, Rule::bdf2);
   EXPECT_EQ(s.relax.threshold, 3e-7);
   EXPECT_EQ(s.relax.max_sweeps, 12);
   EXPECT_EQ(s.relax.expansions, 3);
@@ -75,7 +75,7 @@ TEST(SceneFile, fillsDefaultsIn) {
   EXPECT_EQ(s.relax.max_sweeps, 300);
   EXPECT_FALSE(s.force.wind);
   EXPECT_EQ(s.motion.formulation, Formulation::probe);
-  EXPECT_EQ(s.incremental.rule, "backward_euler");
+  EXPECT_EQ(s.incremental.rule, Rule::backward_euler);
   EXPECT_EQ(s.force.drag, 0.0);
 }
 
@@ -193,7 +193,7 @@ TEST(ShippedScenes, flagsHaveThePapersNumbers) {
   EXPECT_EQ(build_mesh(small).nodes(), 225u);
   const Scene literal = read_inputs("flag-400-literal", "", {}).scene;
   EXPECT_EQ(literal.probe.acceleration_memory, 1.0);
-  EXPECT_EQ(literal.probe.force_on, "acceleration");
+  EXPECT_EQ(literal.probe.force_on, ForceOn::acceleration);
 }
 
 } // namespace

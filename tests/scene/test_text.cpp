@@ -124,7 +124,7 @@ TEST(Text, ofArraysReadsBack) {
   arrays.push_back(read_inputs("flag-400", folder + "good/every_array_key.toml", {}).array);
   for (const spec::ArraySpec& a : arrays) {
     const Folder temp;
-    expect_equal(read_inputs("flag-400", temp.write("a.toml", array_text(a)), {}).array, a);
+    expect_equal(read_inputs("flag-400", temp.write("a.toml", input::array_text(a)), {}).array, a);
   }
 }
 

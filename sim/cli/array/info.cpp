@@ -13,12 +13,12 @@ int info(const CommonOptions& o, bool toml) {
   const levels::Prepared p = prepare(o);
   if (toml) {
     fmt::print("# scene\n{}\n# array\n{}", scene::scene_text(p.inputs.scene),
-               scene::array_text(p.inputs.array));
+               input::array_text(p.inputs.array));
     return done;
   }
   fmt::print("{}\n{}", p.inputs.scene.name,
              run::text_of(run::array_info(p.inputs.scene, *p.mesh, p.inputs.array)));
-  fmt::print("Array file\n{}", scene::array_text(p.inputs.array));
+  fmt::print("Array file\n{}", input::array_text(p.inputs.array));
   return done;
 }
 

@@ -101,9 +101,11 @@ int solve(const SolveRequest& o) {
   const levels::Level& row = levels::level_named(o.level, "--level", levels::sweeping);
   if (!(o.threshold >= 0 && o.threshold <= 2))
     throw input::input_error("", 0, "--threshold", fmt::format("{}", o.threshold), "a number from 0 to 2");
-  if (!o.rule.empty()) check_name(o.rule, "--rule", {"modified", "binary"});
+  if (!o.rule.empty()) check_name(o.rule, "--rule", {spec::output_names.begin(), spec::output_names.end()});
   const Overrides overrides = overrides_of(o);
-  spec::ArraySpec array = input::read_array(o.array, overrides);
+  std::vector<std::string> notes;
+  spec::ArraySpec array = input::read_array(o.array, overrides, notes);
+  tell(notes);
   const Task task = task_of(o);
   apply_rule(o, overrides, task, array);
   const networks::GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);

@@ -85,7 +85,7 @@ std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
 std::uint64_t hash_of(const SizeOptions& o, const levels::Prepared& p) {
   files::RunningCheck check;
   for (const std::string& text :
-       {o.against, scene::scene_text(p.inputs.scene), scene::array_text(p.inputs.array)})
+       {o.against, scene::scene_text(p.inputs.scene), input::array_text(p.inputs.array)})
     check.add(text.data(), text.size() + 1);
   return check.value();
 }
@@ -101,11 +101,8 @@ std::string command_of(const SizeOptions& o, const study::Sizing& sizing, const 
 std::string file_command(const SizeOptions& o, const fs::path& folder) {
   CommonOptions common = o.common;
   common.array = (folder / "size.toml").string();
-  const auto of_array = [](const std::string& word) {
-    return word.rfind("array.", 0) == 0 || word.rfind("formats.", 0) == 0;
-  };
   auto& words = common.overrides;
-  words.erase(std::remove_if(words.begin(), words.end(), of_array), words.end());
+  words.erase(std::remove_if(words.begin(), words.end(), input::is_array_key), words.end());
   return "hopmesh run " + words_of(common) + (o.steps > 0 ? fmt::format(" --steps {}", o.steps) : "");
 }
 
@@ -146,11 +143,11 @@ void write_array(const fs::path& file, const SizeOptions& o, const study::Sizing
   files::write_file(
       file, fmt::format("# The least array found for {} at {} m rms from the {}. With its own sweeps:{}\n{}",
                         o.common.scene, o.error, o.against, relaxation_words(sizing, found),
-                        scene::array_text(sizing.array_of(found.setting))));
+                        input::array_text(sizing.array_of(found.setting))));
 }
 
 /// The row of the evidence about a knob.
-const study::SizeEvidence* less(const study::SizeFound& found, const char* what, const char* knob) {
+const study::SizeEvidence* less(const study::SizeFound& found, const char* what, const std::string& knob) {
   for (const study::SizeEvidence& e : found.evidence)
     if (e.what == what && e.knob == knob) return &e;
   return nullptr;

@@ -122,5 +122,17 @@ TEST_F(CliInfo, PrintsTheExpandedArray) {
   EXPECT_THAT(out, ::testing::HasSubstr("Array file\n" + toml.substr(toml.find("# array\n") + 8)));
 }
 
+TEST_F(CliInfo, TellsAKeyWithoutEffect) {
+  const Finished scene = hopmesh("info banner --set probe.gamma=1");
+  EXPECT_EQ(scene.exit_code, 0);
+  EXPECT_EQ(scene.err, "hopmesh: note: --set: probe.gamma: no effect here; it counts only with "
+                       "motion.formulation = \"probe\"\n");
+  const Finished array =
+      hopmesh("solve two-neurons --array descent --set array.reciprocal_bits=9 --out solved");
+  EXPECT_EQ(array.exit_code, 0);
+  EXPECT_EQ(array.err, "hopmesh: note: --set: array.reciprocal_bits: no effect here; it counts only with "
+                       "array.normaliser = \"reciprocal\"\n");
+}
+
 } // namespace
 } // namespace hopmesh::tests

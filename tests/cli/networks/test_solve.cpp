@@ -270,7 +270,7 @@ TEST_F(CliSolve, BadFilesAreRefusedInOneLine) {
 // ---- the problem set
 
 TEST_F(CliSolve, ProblemsAreListedAndWritten) {
-  const auto lines = lines_of(good("problem").out);
+  const auto lines = lines_of(good("problems").out);
   EXPECT_GE(lines.size(), 20u);
   EXPECT_THAT(good("problem queens-8 --seed 3 --out q").out, HasSubstr("queens-8: 8 queens on a board"));
   EXPECT_EQ(names_in(at("q")), (std::vector<std::string>{"V0.mtx", "W.mtx", "bias.mtx"}));

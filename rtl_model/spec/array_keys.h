@@ -1,0 +1,193 @@
+// Every key of an array as a row: its name in files, where its value stands, what may stand there and when it
+// counts. Readers, writers, test vectors, `info`, random and shrunk arrays, and the page walk these rows.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+
+#include <iterator>
+#include <variant>
+
+namespace hopmesh::spec {
+
+/// Which one of a few names, as its number among them.
+struct Choice {
+  const std::string_view* names;
+  std::size_t count;
+  std::uint8_t* at;
+
+  std::string_view name() const { return names[*at]; }
+};
+
+template <typename Mode, std::size_t n>
+Choice choice(Mode& mode, const std::array<std::string_view, n>& names) {
+  static_assert(sizeof(Mode) == 1, "a mode is an enum of one byte");
+  return {names.data(), n, reinterpret_cast<std::uint8_t*>(&mode)};
+}
+
+/// The accumulator's format, or that it is exact and has none of its own.
+struct Accumulator {
+  bool* exact;
+  NumberFormat* format;
+};
+
+/// Where the value of a key stands. (What an array is called is no fact of the hardware.)
+using Place = std::variant<int*, double*, Choice, NumberFormat*, Accumulator>;
+
+/// The value that stands there, as one word.
+struct ValueText {
+  std::string operator()(const int* x) const { return std::to_string(*x); }
+  std::string operator()(const double* x) const { return std::to_string(*x); }
+  std::string operator()(const Choice& choice) const { return std::string(choice.name()); }
+  std::string operator()(const NumberFormat* format) const { return format->text(); }
+  std::string operator()(const Accumulator& sum) const { return *sum.exact ? "exact" : sum.format->text(); }
+};
+
+// What can be built; rules that reach across keys are in array_rules.h.
+inline constexpr int least_width = 4, most_width = 32; ///< of every format but the accumulator's
+inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
+inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
+inline constexpr int most_lanes = 64;
+inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
+inline constexpr double most_mhz = 10000;
+
+/// Which numbers can be built, and the words for them: from `least` (`above` it) to `most`, or only those of
+/// a list. Of formats, words alone.
+struct Allowed {
+  std::string words;
+  double least = 0, most = 0;
+  bool above = false;
+  std::vector<int> only = {};
+
+  bool takes(double x) const {
+    if (!only.empty()) return std::find(only.begin(), only.end(), x) != only.end();
+    return (above ? x > least : x >= least) && x <= most;
+  }
+  /// Whatever is no number is taken.
+  bool takes(const Place& place) const {
+    if (const auto* whole = std::get_if<int*>(&place)) return takes(**whole);
+    if (const auto* real = std::get_if<double*>(&place)) return takes(**real);
+    return true;
+  }
+};
+
+/// A row. What follows the constructor in a table names its column.
+struct ArrayKey {
+  std::string name; ///< in files and overrides
+  Place place;
+  std::string meaning;
+  const char* unit = "";
+  Allowed allowed;
+  int vectors_line = 0; ///< its place among the lines of a case of test vectors; 0: no answer depends on it
+  int plainest = 0;     ///< number, or number of the name, that a failing case is shrunk towards
+  bool counts = true;   ///< as the array stands
+  const char* counts_with = "";
+
+  ArrayKey(std::string key, Place where, std::string means)
+      : name(std::move(key)), place(where), meaning(std::move(means)) {}
+
+  /// The name without its table.
+  std::string word() const { return name.substr(name.find('.') + 1); }
+  std::string value() const { return std::visit(ValueText(), place); }
+
+  ArrayKey& in_unit(const char* words) { return unit = words, *this; }
+  ArrayKey& allows(Allowed values) { return allowed = std::move(values), *this; }
+  ArrayKey& in_vectors(int line) { return vectors_line = line, *this; }
+  template <typename Value> ArrayKey& plain(Value value) { return plainest = static_cast<int>(value), *this; }
+  ArrayKey& counts_only(bool now, const char* with) { return counts = now, counts_with = with, *this; }
+};
+using ArrayKeys = std::vector<ArrayKey>;
+
+namespace detail {
+
+inline std::string from_to(int least, int most) {
+  return std::to_string(least) + " to " + std::to_string(most);
+}
+
+inline Allowed numbers(int least, int most) {
+  return {from_to(least, most), double(least), double(most)};
+}
+
+inline Allowed bits(const SignalClass& signal) {
+  if (signal.format == &Formats::accumulator)
+    return {"`\"exact\"`, or " + from_to(least_width, most_sum_width) + " bits, no finer than a product"};
+  return {from_to(least_width, most_width) + " bits, " + std::to_string(signal.least_integer_bits) +
+          " or more before the point"};
+}
+
+} // namespace detail
+
+// The rows below are in the order of array files.
+
+inline ArrayKeys structure_keys(ArraySpec& a) {
+  const bool modified = a.output == Output::modified;
+  const char* const with_modified = "array.output = \"modified\"";
+  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+  return {
+      ArrayKey("array.schedule", choice(a.schedule, schedule_names),
+               "who fires together: neurons of a colour, one after the other, all at once")
+          .in_vectors(1)
+          .plain(Schedule::sequential),
+      ArrayKey("array.lanes", &a.lanes, "multipliers a neuron: inputs taken a cycle")
+          .allows(detail::numbers(1, most_lanes))
+          .in_vectors(5)
+          .plain(1),
+      ArrayKey("array.output", choice(a.output, output_names), "V moves by R · s / N; or V is the sign of s")
+          .in_vectors(2)
+          .plain(Output::modified),
+      ArrayKey("array.normaliser", choice(a.normaliser, normaliser_names),
+               "how u = s / N is made; not looked at beside binary outputs")
+          .counts_only(modified, with_modified)
+          .in_vectors(3)
+          .plain(Normaliser::prescaled),
+      ArrayKey("array.reciprocal_bits", &a.reciprocal_bits, "width of the truncated reciprocal")
+          .in_unit("bits")
+          .allows(detail::numbers(least_reciprocal_bits, most_reciprocal_bits))
+          .counts_only(has_reciprocal(a), with_reciprocal)
+          .in_vectors(4)
+          .plain(18),
+      ArrayKey("array.bus_bits", &a.bus_bits, "data width of the host bus")
+          .in_unit("bits")
+          .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
+          .in_vectors(6)
+          .plain(32),
+      ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
+          .in_unit("MHz")
+          .allows({"above 0, at most 10000", 0, most_mhz, true}),
+  };
+}
+
+inline ArrayKeys format_keys(ArraySpec& a) {
+  constexpr int first_line = 7; // of test vectors
+  ArrayKeys keys;
+  for (const SignalClass& signal : signal_classes) {
+    NumberFormat* const format = &(a.formats.*signal.format);
+    const bool sum = signal.format == &Formats::accumulator;
+    const Place place = sum ? Place(Accumulator{&a.exact_accumulator, format}) : Place(format);
+    const int line = first_line + static_cast<int>(keys.size());
+    keys.push_back(ArrayKey(std::string("formats.") + signal.name, place, signal.meaning)
+                       .allows(detail::bits(signal))
+                       .in_vectors(line));
+  }
+  return keys;
+}
+
+inline ArrayKeys array_keys(ArraySpec& a) {
+  ArrayKeys all = structure_keys(a);
+  for (const ArrayKey& key : format_keys(a)) all.push_back(key);
+  return all;
+}
+
+/// The rows on which answers depend, in the order of test vectors.
+inline ArrayKeys answer_keys(const ArrayKeys& all) {
+  ArrayKeys some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [](const ArrayKey& key) { return key.vectors_line > 0; });
+  std::sort(some.begin(), some.end(),
+            [](const ArrayKey& a, const ArrayKey& b) { return a.vectors_line < b.vectors_line; });
+  return some;
+}
+
+/// The table of an array. Where a walker takes one, a caller may give it rows of its own beside these.
+using ArrayTable = ArrayKeys (*)(ArraySpec&);
+
+} // namespace hopmesh::spec
