@@ -1,8 +1,8 @@
 // Trials of a search, each in a safe file of its own: a search that was killed finds again what it had tried.
 #pragma once
 
-#include "sim/files/folder_lock.h"
 #include "sim/run/outcome.h"
+#include "sim/study/safe_folder.h"
 #include "sim/study/sizing.h"
 
 #include <cmath>
@@ -20,18 +20,15 @@ struct TrialRow {
 class TrialFolder {
  public:
   /// Takes up what is there; throws InputError where the folder belongs to other inputs (`hash`).
-  TrialFolder(std::filesystem::path folder, std::uint64_t hash);
+  TrialFolder(const std::filesystem::path& folder, std::uint64_t hash);
 
   std::optional<TrialRow> find(const Setting& setting) const;
   /// Safe from any kill once this returns.
   void keep(const Setting& setting, const TrialRow& row) const;
-  const std::filesystem::path& path() const { return folder_; }
+  const std::filesystem::path& path() const { return safe_.path(); }
 
  private:
-  std::filesystem::path file_of(const Setting& setting) const;
-
-  std::filesystem::path folder_;
-  std::optional<files::FolderLock> lock_;
+  const SafeFolder safe_;
 };
 
 } // namespace hopmesh::study
