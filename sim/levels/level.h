@@ -47,7 +47,7 @@ struct Way {
 struct Level {
   std::string name;
   Kind kind = Kind::array;
-  std::string words; ///< for people: what it is, in a phrase
+  std::string words = {}; ///< for people: what it is, in a phrase
 
   /// Makes its array; empty where there is none.
   std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&, const PortRequest&)>
