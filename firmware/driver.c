@@ -1,6 +1,7 @@
 /* From doubles to raw codes and back, over the bus. Registers and windows: docs/hardware/registers.md. */
 #include "firmware/driver.h"
 
+#include "firmware/doubles.h"
 #include "firmware/registers.h"
 
 #define TRY(call)                                                                                            \
@@ -9,13 +10,10 @@
     if (error_ != HM_OK) return error_;                                                                      \
   } while (0)
 
-static double magnitude(double x) {
-  return x < 0 ? -x : x;
-}
-
-static int32_t whole_units(double threshold, int fraction) {
-  const double units = threshold * hm_power_of_two(fraction);
-  return units >= 2147483647.0 ? INT32_MAX : (int32_t)units;
+static uint32_t whole_places(double threshold, const hm_format* format) {
+  const hm_format places = {32, 32 - hm_fraction_bits(format), HM_TRN_ZERO, HM_SAT};
+  int clipped;
+  return (uint32_t)hm_quantise(threshold, 0, &places, &clipped);
 }
 
 /* ---- what stands behind the bus ---- */
@@ -114,7 +112,7 @@ static int put(stream* s, const double* values, uint32_t count) {
   return HM_OK;
 }
 
-/* One row, each value divided by `norm` before it is scaled. */
+/* A row, each value divided by `norm` before it is scaled. */
 static int put_row(stream* s, const double* values, uint32_t count, double norm) {
   double divided[64];
   while (count > 0) {
@@ -164,7 +162,7 @@ static double value_of(uint64_t bits) {
   return (double_bits){.bits = bits}.value;
 }
 
-/* One power of two for the whole network: W stays symmetric, and u = s / N does not see it. */
+/* A single power of two for the whole network: W stays symmetric, and u = s / N does not see it. */
 static int block_exponent(const hm_driver* d, double w, double b) {
   if (w == 0 && b == 0) return 0;
   if (w == 0) return hm_room(b, &d->bias);
@@ -177,8 +175,8 @@ static int block_exponent(const hm_driver* d, double w, double b) {
 static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t cell, uint32_t p) {
   const double* row = network->weight + hm_row_offset(mesh, cell, p);
   const uint32_t length = hm_row_length(mesh, cell);
-  double norm = magnitude(network->bias[cell * mesh->components + p]);
-  for (uint32_t k = 0; k < length; ++k) norm += magnitude(row[k]);
+  double norm = hm_magnitude(network->bias[cell * mesh->components + p]);
+  for (uint32_t k = 0; k < length; ++k) norm += hm_magnitude(row[k]);
   return norm > 0 ? norm : 1;
 }
 
@@ -191,7 +189,7 @@ static int load_weights(hm_driver* d, const hm_mesh* mesh, const hm_network* net
 
 static int load_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
   stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, shift);
-  TRY(put(&biases, network->bias, mesh->cells * mesh->components));
+  TRY(put(&biases, network->bias, hm_neuron_count(mesh)));
   return flush(&biases);
 }
 
@@ -229,7 +227,7 @@ static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* networ
 static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
   const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
   stream outputs = open_stream(d, HM_WINDOW_OUTPUT, &d->state, 0);
-  TRY(put(&outputs, network->output, mesh->cells * mesh->components));
+  TRY(put(&outputs, network->output, hm_neuron_count(mesh)));
   d->clipped = clipped;
   return flush(&outputs);
 }
@@ -237,7 +235,7 @@ static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* net
 /* ---- one relaxation ---- */
 
 static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
-  TRY(write_register(d, HM_REG_THRESHOLD, (uint32_t)whole_units(threshold, hm_fraction_bits(&d->state))));
+  TRY(write_register(d, HM_REG_THRESHOLD, whole_places(threshold, &d->state)));
   TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
   TRY(write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
   TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
@@ -258,7 +256,7 @@ static int read_counters(const hm_driver* d, hm_relaxation* result) {
 }
 
 static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* network) {
-  const uint32_t count = mesh->cells * mesh->components;
+  const uint32_t count = hm_neuron_count(mesh);
   const double last_place = 1 / hm_power_of_two(hm_fraction_bits(&d->state));
   for (uint32_t done = 0; done < count;) {
     const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
@@ -272,7 +270,7 @@ static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* net
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
                     uint32_t max_sweeps, hm_relaxation* result) {
   hm_driver* d = driver;
-  const uint32_t neurons = mesh->cells * mesh->components;
+  const uint32_t neurons = hm_neuron_count(mesh);
   const uint64_t weight = largest_bits(network->weight, hm_weight_count(mesh));
   const uint64_t bias = largest_bits(network->bias, neurons);
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))

@@ -4,8 +4,8 @@
 #define HOPMESH_FIRMWARE_DRIVER_H
 
 #include "firmware/bus.h"
-#include "firmware/network.h"
 #include "firmware/quantise.h"
+#include "firmware/relax.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,11 +20,6 @@ typedef struct hm_driver {
   uint32_t clipped; /* weights and biases of the last load that did not fit their format */
   int shift;        /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
-
-typedef struct hm_relaxation {
-  uint32_t sweeps, converged;
-  uint64_t cycles;
-} hm_relaxation;
 
 /* Looks at the array behind `bus` and checks that it was built for `mesh`. `buffer` is the longest burst, 1
    word or more. HM_OK, or HM_ERROR_ID, _MESH, _BUS, _SPACE. */

@@ -1,60 +1,60 @@
-/* The time step, whatever its formulation. */
 #include "firmware/integrator.h"
 
-#include "firmware/formulations.h"
+#include "firmware/bus.h"
+#include "firmware/doubles.h"
 
-double sqrt(double);
-
-double hm_length(const double* v, uint32_t n) {
-  double square = 0;
-  for (uint32_t p = 0; p < n; ++p) square += v[p] * v[p];
-  return sqrt(square);
-}
-
-int hm_is_finite(double x) {
-  return x - x == 0;
-}
-
-double hm_one_spring_energy(const hm_mesh* mesh, const hm_spring* spring, const double* a, const double* b) {
-  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  if (mesh->law == HM_TENSION) {
-    const double length = hm_length(d, 3);
-    return spring->weight * sqrt(length * length + mesh->floor * mesh->floor);
+/* The first cell whose node would have no finite place or velocity; HM_PINNED if there is none. */
+static uint32_t first_lost(const hm_step_work* work) {
+  const hm_mesh* mesh = work->mesh;
+  hm_coordinate next[3];
+  for (uint32_t c = 0; c < mesh->cells; ++c) {
+    work->parameters->formulation->next(work, c, next);
+    for (uint32_t p = 0; p < mesh->components; ++p)
+      if (!hm_is_finite(next[p].position) || !hm_is_finite(next[p].velocity)) return c;
   }
-  const double stretch = hm_length(d, 3) - spring->rest_length;
-  return spring->weight * stretch * stretch;
+  return HM_PINNED;
 }
 
-double hm_spring_energy(const hm_mesh* mesh, const double* position) {
-  double sum = 0;
-  for (uint32_t e = 0; e < mesh->springs; ++e)
-    sum += hm_one_spring_energy(mesh, &mesh->spring[e], position + 3 * mesh->spring[e].node[0],
-                                position + 3 * mesh->spring[e].node[1]);
-  return sum;
+static void keep_previous(hm_state* state, uint32_t at) {
+  state->previous_position[at] = state->position[at];
+  state->previous_velocity[at] = state->velocity[at];
 }
 
-void hm_keep_start(const hm_mesh* mesh, hm_state* state) {
-  for (uint32_t k = 0; k < mesh->cells * mesh->components; ++k) state->start[k] = state->network.output[k];
+static void move(const hm_step_work* work) {
+  const hm_formulation* formulation = work->parameters->formulation;
+  const hm_mesh* mesh = work->mesh;
+  hm_state* state = work->state;
+  hm_coordinate next[3];
+  for (uint32_t c = 0; c < mesh->cells; ++c) {
+    formulation->next(work, c, next);
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const uint32_t at = 3 * mesh->node_of_cell[c] + mesh->axis[p];
+      if (formulation->looks_back) keep_previous(state, at);
+      state->position[at] = next[p].position;
+      state->velocity[at] = next[p].velocity;
+      state->acceleration[at] = next[p].acceleration;
+    }
+  }
 }
 
-int hm_relax(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
-             hm_step_result* result) {
-  hm_relaxation relaxation;
-  const int error = solver->relax(solver->context, mesh, &state->network, motion->threshold,
-                                  motion->max_sweeps, &relaxation);
-  if (error != HM_OK) return error;
-  result->sweeps += relaxation.sweeps;
-  result->cycles += relaxation.cycles;
-  result->converged = relaxation.converged;
-  result->relaxations += 1;
-  return HM_OK;
-}
-
-int hm_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
-            hm_step_result* result) {
+int hm_step(const hm_mesh* mesh, const hm_step_parameters* parameters, const hm_solver* solver,
+            hm_state* state, hm_step_result* result) {
+  const hm_formulation* formulation = parameters->formulation;
+  hm_step_work work = {mesh, parameters, solver, state, &result->relaxation, .kept = parameters->friction};
   *result = (hm_step_result){0};
-  const int error = motion->rule == HM_PROBE ? hm_probe_step(mesh, motion, solver, state, result)
-                                             : hm_incremental_step(mesh, motion, solver, state, result);
-  if (error == HM_OK) state->step += 1;
-  return error;
+  formulation->begin(&work);
+  for (uint32_t expansion = 0; expansion < parameters->expansions; ++expansion) {
+    const int error = formulation->relax(&work);
+    if (error != HM_OK) return error;
+  }
+  if (formulation->weigh) formulation->weigh(&work);
+  const uint32_t lost = first_lost(&work); /* asked first: then there is nothing to undo */
+  if (lost != HM_PINNED) {
+    result->lost_node = mesh->node_of_cell[lost];
+    return HM_ERROR_LOST;
+  }
+  move(&work);
+  if (formulation->finish) formulation->finish(&work);
+  state->step += 1;
+  return HM_OK;
 }

@@ -2,8 +2,7 @@
 #include "firmware/network.h"
 
 #include "firmware/bus.h"
-
-double sqrt(double); /* IEEE: correctly rounded everywhere; the only function asked of the platform */
+#include "firmware/doubles.h"
 
 uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell) {
   return mesh->components * (1 + mesh->first_link[cell + 1] - mesh->first_link[cell]);
@@ -16,6 +15,10 @@ uint32_t hm_row_offset(const hm_mesh* mesh, uint32_t cell, uint32_t p) {
 
 uint32_t hm_weight_count(const hm_mesh* mesh) {
   return mesh->components * mesh->components * (mesh->cells + mesh->first_link[mesh->cells]);
+}
+
+uint32_t hm_neuron_count(const hm_mesh* mesh) {
+  return mesh->cells * mesh->components;
 }
 
 static uint32_t find_link(const hm_mesh* mesh, uint32_t from, uint32_t to) {
@@ -85,7 +88,7 @@ static inline void tension_terms(const hm_mesh* mesh, const hm_spring* spring, c
    compressed spring's curvature across itself counts as none instead of negative. */
 static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, const double u[3], double h,
                                 double s[3][3], double f[3], const uint32_t n, const int convex) {
-  const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  const double length = hm_length(u, 3);
   const double slack = length > 0 ? spring->rest_length / length : 0.0;
   const double curved = convex && slack > 1 ? 1.0 : slack;
   const double stiffness = 2 * spring->weight * h * h, pull = 2 * spring->weight * h * (1 - slack);
@@ -102,7 +105,7 @@ static inline void spring_terms(const hm_mesh* mesh, const hm_spring* spring, co
     }
 }
 
-/* One end of a spring: H_ii += S, H_ij = -S; so W gets the opposite. */
+/* An end of a spring: H_ii += S, H_ij = -S; so W gets the opposite. */
 static inline void add_spring_end(const hm_mesh* mesh, hm_network* network, uint32_t cell, uint32_t link,
                                   double s[3][3], const uint32_t n) {
   const uint32_t first = mesh->first_link[cell], row = n * (1 + mesh->first_link[cell + 1] - first);
@@ -200,7 +203,7 @@ static inline void add_all(const hm_mesh* mesh, const double* predicted, double 
 }
 
 static void clear(const hm_mesh* mesh, hm_network* network) {
-  const uint32_t weights = hm_weight_count(mesh), biases = mesh->cells * mesh->components;
+  const uint32_t weights = hm_weight_count(mesh), biases = hm_neuron_count(mesh);
   for (uint32_t k = 0; k < weights; ++k) network->weight[k] = 0;
   for (uint32_t k = 0; k < biases; ++k) network->bias[k] = 0;
 }

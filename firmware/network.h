@@ -39,7 +39,7 @@ typedef struct hm_mesh {
   const uint32_t* link_to;      /* [first_link[cells]] neighbour cells, ascending in each row */
 } hm_mesh;
 
-/* One network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the
+/* A network. Rows of `weight` follow rtl_model/spec/topology.h: for each cell, for each component p, the
    cell's own components, then each neighbour's in link order. bias and output: [cells * components]. */
 typedef struct hm_network {
   double *weight, *bias, *output;
@@ -49,6 +49,7 @@ typedef struct hm_network {
 uint32_t hm_row_offset(const hm_mesh* mesh, uint32_t cell, uint32_t p);
 uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell);
 uint32_t hm_weight_count(const hm_mesh* mesh);
+uint32_t hm_neuron_count(const hm_mesh* mesh);
 
 /* Finds each spring's two links. Returns HM_OK, or HM_ERROR_MESH if a spring between free nodes has none. */
 int hm_mesh_connect(hm_mesh* mesh);
@@ -59,9 +60,9 @@ int hm_mesh_connect(hm_mesh* mesh);
 void hm_network_build(const hm_mesh* mesh, const double* predicted, double h, double beta_scale,
                       hm_network* network);
 
-/* The same of the incremental potential (docs/method/theory.md, section 4), whose outputs move a node by
-   reach * V metres and weigh inertia (kg/s^2) / 2 times the square of that. Compressed springs count convex:
-   W is negative semi-definite. */
+/* Weights and biases of the incremental potential (docs/method/theory.md, section 4), whose outputs move a
+   node by reach * V metres and weigh inertia (kg/s^2) / 2 times the square of that. Compressed springs count
+   convex: W is negative semi-definite. */
 void hm_network_build_incremental(const hm_mesh* mesh, const double* predicted, double reach, double inertia,
                                   hm_network* network);
 

@@ -1,16 +1,21 @@
-/* One time step of the probe formulation: docs/method/theory.md, section 4. */
-#include "firmware/formulations.h"
-
-double sqrt(double);
+/* The probe (docs/method/theory.md, section 4): outputs are directions, and a node's springs tell how far it
+ * goes.
+ */
+#include "firmware/doubles.h"
+#include "firmware/formulation.h"
+#include "firmware/network.h"
+#include "firmware/springs.h"
 
 static const double shortest_direction = 1e-9;
 
 /* C = x + v dt + h memory a; pinned nodes stay. */
-static void predict(const hm_mesh* mesh, const hm_motion* motion, hm_state* state) {
-  const double dt = motion->time_step, h = dt * dt / 2;
+static void predict(const hm_step_work* work) {
+  const hm_mesh* mesh = work->mesh;
+  hm_state* state = work->state;
+  const double dt = work->parameters->time_step, memory = work->parameters->acceleration_memory;
   for (uint32_t i = 0; i < mesh->nodes; ++i)
     for (uint32_t x = 3 * i; x < 3 * i + 3; ++x) {
-      const double moved = state->velocity[x] * dt + h * motion->acceleration_memory * state->acceleration[x];
+      const double moved = state->velocity[x] * dt + work->h * memory * state->acceleration[x];
       state->predicted[x] = state->position[x] + (mesh->cell_of_node[i] == HM_PINNED ? 0.0 : moved);
     }
 }
@@ -25,6 +30,21 @@ static void set_expansion_point(const hm_mesh* mesh, hm_state* state) {
     for (uint32_t p = 0; p < n; ++p)
       v[p] = length < shortest_direction ? (p + 1 == n ? -1.0 : 0.0) : v[p] / length;
   }
+}
+
+/* A drag slows what friction leaves: the probe's motion knows no other. */
+static void begin(hm_step_work* work) {
+  const hm_step_parameters* parameters = work->parameters;
+  const double dt = parameters->time_step;
+  work->h = dt * dt / 2;
+  work->kept = parameters->friction / (1 + parameters->drag * dt);
+  predict(work);
+  set_expansion_point(work->mesh, work->state);
+}
+
+static void build(const hm_step_work* work) {
+  const double dt = work->parameters->time_step, beta_scale = work->parameters->beta * dt * dt * dt * dt;
+  hm_network_build(work->mesh, work->state->predicted, work->h, beta_scale, &work->state->network);
 }
 
 /* The directions that the nodes' neurons rest in, in coordinates; zero where they point nowhere. */
@@ -54,9 +74,7 @@ static void probe_end(const hm_mesh* mesh, const hm_spring* spring, int end, dou
 
 /* Delta E_i of every cell (paper eq. 6). With `all springs`, the springs elsewhere change by E(C) - E(x): the
    total, less what the node's own springs contribute to it. */
-static void probe_energies(const hm_mesh* mesh, const hm_motion* motion, hm_state* state) {
-  const double h = motion->time_step * motion->time_step / 2;
-  const int all = motion->energy_of_all_springs;
+static void probe_energies(const hm_mesh* mesh, int all, double h, hm_state* state) {
   const double elsewhere =
       all ? hm_spring_energy(mesh, state->predicted) - hm_spring_energy(mesh, state->position) : 0.0;
   for (uint32_t c = 0; c < mesh->cells; ++c) state->energy_change[c] = elsewhere;
@@ -70,74 +88,33 @@ static void probe_energies(const hm_mesh* mesh, const hm_motion* motion, hm_stat
   }
 }
 
+static void weigh(const hm_step_work* work) {
+  find_directions(work->mesh, work->state);
+  probe_energies(work->mesh, work->parameters->energy_of_all_springs, work->h, work->state);
+}
+
 /* How strongly a cell's node is pushed (eq. 7). */
-static double kick_of(const hm_motion* motion, const hm_state* state, uint32_t cell) {
-  const double energy = motion->gamma * state->energy_change[cell];
-  return sqrt(energy < 0 ? -energy : energy);
+static double kick_of(const hm_step_work* work, uint32_t cell) {
+  return sqrt(hm_magnitude(work->parameters->gamma * work->state->energy_change[cell]));
 }
 
-typedef struct coordinate {
-  double position, velocity, acceleration;
-} coordinate;
-
-/* Position, velocity with friction, then the force, of one coordinate of a free node. */
-static coordinate moved(const hm_motion* motion, const hm_state* state, uint32_t at, uint32_t axis,
-                        double push) {
-  const double dt = motion->time_step, h = dt * dt / 2;
-  const double a = state->acceleration[at] * motion->acceleration_memory + push;
-  coordinate next;
-  next.position = state->position[at] + (state->velocity[at] * dt + h * a);
-  next.velocity = (state->velocity[at] + a * dt) * motion->friction;
-  if (!motion->force_on_acceleration) next.velocity += dt * motion->force[axis];
-  next.acceleration = motion->force_on_acceleration ? a + motion->force[axis] : a;
-  return next;
-}
-
-/* The first cell whose node would have no finite place or velocity; HM_PINNED if there is none. */
-static uint32_t first_lost(const hm_mesh* mesh, const hm_motion* motion, const hm_state* state) {
-  for (uint32_t c = 0; c < mesh->cells; ++c) {
-    const double kick = kick_of(motion, state, c);
-    for (uint32_t p = 0; p < mesh->components; ++p) {
-      const uint32_t x = mesh->axis[p];
-      const coordinate next =
-          moved(motion, state, 3 * mesh->node_of_cell[c] + x, x, state->direction[3 * c + x] * kick);
-      if (!hm_is_finite(next.position) || !hm_is_finite(next.velocity)) return c;
-    }
-  }
-  return HM_PINNED;
-}
-
-static void move(const hm_mesh* mesh, const hm_motion* motion, hm_state* state) {
-  for (uint32_t c = 0; c < mesh->cells; ++c) {
-    const double kick = kick_of(motion, state, c);
-    for (uint32_t p = 0; p < mesh->components; ++p) {
-      const uint32_t x = mesh->axis[p], at = 3 * mesh->node_of_cell[c] + x;
-      const coordinate next = moved(motion, state, at, x, state->direction[3 * c + x] * kick);
-      state->position[at] = next.position;
-      state->velocity[at] = next.velocity;
-      state->acceleration[at] = next.acceleration;
-    }
+/* Position, velocity with friction, then the force. */
+static void find_next(const hm_step_work* work, uint32_t cell, hm_coordinate* next) {
+  const hm_mesh* mesh = work->mesh;
+  const hm_step_parameters* parameters = work->parameters;
+  const hm_state* state = work->state;
+  const double dt = parameters->time_step, kick = kick_of(work, cell);
+  for (uint32_t p = 0; p < mesh->components; ++p, ++next) {
+    const uint32_t axis = mesh->axis[p], at = 3 * mesh->node_of_cell[cell] + axis;
+    const double force = parameters->force[axis];
+    const double a =
+        state->acceleration[at] * parameters->acceleration_memory + state->direction[3 * cell + axis] * kick;
+    next->position = state->position[at] + (state->velocity[at] * dt + work->h * a);
+    next->velocity = (state->velocity[at] + a * dt) * work->kept;
+    if (!parameters->force_on_acceleration) next->velocity += dt * force;
+    next->acceleration = parameters->force_on_acceleration ? a + force : a;
   }
 }
 
-int hm_probe_step(const hm_mesh* mesh, const hm_motion* motion, const hm_solver* solver, hm_state* state,
-                  hm_step_result* result) {
-  const double dt = motion->time_step, h = dt * dt / 2, beta_scale = motion->beta * dt * dt * dt * dt;
-  predict(mesh, motion, state);
-  set_expansion_point(mesh, state);
-  for (uint32_t expansion = 0; expansion < motion->expansions; ++expansion) {
-    hm_keep_start(mesh, state);
-    hm_network_build(mesh, state->predicted, h, beta_scale, &state->network);
-    const int error = hm_relax(mesh, motion, solver, state, result);
-    if (error != HM_OK) return error;
-  }
-  find_directions(mesh, state);
-  probe_energies(mesh, motion, state);
-  const uint32_t lost = first_lost(mesh, motion, state); /* asked first: then there is nothing to undo */
-  if (lost != HM_PINNED) {
-    result->lost_node = mesh->node_of_cell[lost];
-    return HM_ERROR_LOST;
-  }
-  move(mesh, motion, state);
-  return HM_OK;
-}
+const hm_formulation hm_probe = {
+    .name = "probe", .begin = begin, .build = build, .relax = hm_expand, .weigh = weigh, .next = find_next};

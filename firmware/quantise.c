@@ -1,5 +1,6 @@
 #include "firmware/quantise.h"
 
+#include "firmware/doubles.h"
 #include "firmware/registers.h"
 
 double hm_power_of_two(int exponent) {
@@ -7,10 +8,6 @@ double hm_power_of_two(int exponent) {
   for (; exponent > 0; --exponent) value *= 2;
   for (; exponent < 0; ++exponent) value /= 2;
   return value;
-}
-
-static double magnitude(double x) {
-  return x < 0 ? -x : x;
 }
 
 static int64_t most(const hm_format* f) {
@@ -21,60 +18,8 @@ int hm_fraction_bits(const hm_format* f) {
   return f->width - f->integer_bits;
 }
 
-/* Is 1 to be added to `whole`, the magnitude's whole part, where `rest` in [0, 1) is left? Magnitudes,
-   because |x| - whole is exact, while x - floor(x) is not for a small negative x. */
-static int rounds_away(int64_t whole, double rest, int negative, int rounding) {
-  if (rest == 0 || rounding == HM_TRN_ZERO) return 0;
-  if (rounding == HM_TRN) return negative;
-  if (rest != 0.5) return rest > 0.5;
-  switch (rounding) { /* a tie */
-  case HM_RND:
-    return !negative;
-  case HM_RND_MIN_INF:
-    return negative;
-  case HM_RND_INF:
-    return 1;
-  case HM_RND_CONV:
-    return (int)(whole & 1);
-  default:
-    return 0; /* HM_RND_ZERO */
-  }
-}
-
-static int64_t bring_into_range(int64_t code, const hm_format* f) {
-  const int64_t high = most(f), low = f->overflow == HM_SAT_SYM ? -high : -high - 1;
-  if (code >= low && code <= high) return code;
-  if (f->overflow == HM_SAT_ZERO) return 0;
-  if (f->overflow != HM_WRAP) return code > high ? high : low;
-  const uint64_t sign = (uint64_t)1 << (f->width - 1), kept = (uint64_t)code & (2 * sign - 1);
-  return (int64_t)(kept ^ sign) - (int64_t)sign;
-}
-
-int32_t hm_code(double x, const hm_format* format, int* clipped) {
-  const double far = 4611686018427387904.0; /* 2^62: every format is full */
-  const double block = 4294967296.0;        /* 2^32: the widest format */
-  const int negative = (x < 0), beyond = (magnitude(x) > far);
-  double size = magnitude(x);
-  if (beyond && format->overflow == HM_WRAP) /* only the low bits count; none are left beyond 2^85 */
-    size = size < far * 8388608.0 ? size - (double)(int64_t)(size / block) * block : 0;
-  else if (beyond)
-    size = far;
-  const int64_t whole = (int64_t)size;
-  const int64_t away = whole + rounds_away(whole, size - (double)whole, negative, format->rounding);
-  const int64_t code = negative ? -away : away, kept = bring_into_range(code, format);
-  if (kept != code || beyond) *clipped = 1;
-  return (int32_t)kept;
-}
-
-int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
-  return hm_code(value * hm_power_of_two(shift + hm_fraction_bits(format)), format, clipped);
-}
-
-/* ---- many values ---- */
-
-/* A rounding mode as a correction of "to nearest, ties to even", which adding and taking away 2^52 + 2^51
-   does exactly: one more from a rest of `up` on, one less below a rest of `down`. The modes that do not tell
-   plus from minus work on magnitudes. */
+/* A rounding mode as a correction of "to nearest, ties to even": one more from a rest of `up` on, one less
+   below a rest of `down`. The modes that do not tell plus from minus work on magnitudes. */
 typedef struct rounding_rule {
   double up, down;
   int of_magnitude;
@@ -100,34 +45,59 @@ static rounding_rule rule_of(int rounding) {
   }
 }
 
-/* To the nearest whole number by `rule`. Beyond 2^51 the last places are lost: too far to matter where the
-   result saturates. */
-static inline double rounded(double x, double up, double down) {
+/* The door of all rounding: x to a whole number. Adding and taking away 2^52 + 2^51 rounds to nearest, ties
+   to even; beyond 2^51 it loses the last places. No branch depends on a value: compilers do several at a
+   time. */
+static inline double rounded(double x, double up, double down, const int of_magnitude) {
   const double pushed = 6755399441055744.0; /* 2^52 + 2^51: doubles of this size are whole numbers */
-  const double nearest = (x + pushed) - pushed, rest = x - nearest;
+  const double size = of_magnitude ? hm_magnitude(x) : x;
+  const double nearest = (size + pushed) - pushed, rest = size - nearest;
   const double more = rest >= up ? 1.0 : 0.0, less = rest < down ? 1.0 : 0.0;
-  return nearest + more - less;
+  const double whole = nearest + more - less;
+  return of_magnitude && x < 0 ? -whole : whole;
 }
+
+static int64_t bring_into_range(int64_t code, const hm_format* f) {
+  const int64_t high = most(f), low = f->overflow == HM_SAT_SYM ? -high : -high - 1;
+  if (code >= low && code <= high) return code;
+  if (f->overflow == HM_SAT_ZERO) return 0;
+  if (f->overflow != HM_WRAP) return code > high ? high : low;
+  const uint64_t sign = (uint64_t)1 << (f->width - 1), kept = (uint64_t)code & (2 * sign - 1);
+  return (int64_t)(kept ^ sign) - (int64_t)sign;
+}
+
+int32_t hm_code(double x, const hm_format* format, int* clipped) {
+  const double far = 4611686018427387904.0; /* 2^62: every format is full */
+  const double block = 4294967296.0;        /* 2^32: the widest format; what lies beyond needs no rounding */
+  const rounding_rule rule = rule_of(format->rounding);
+  const int beyond = hm_magnitude(x) > far;
+  if (beyond && format->overflow == HM_WRAP) /* only the low bits count; none are left beyond 2^85 */
+    x = hm_magnitude(x) < far * 8388608.0 ? x - (double)(int64_t)(x / block) * block : 0;
+  else if (beyond)
+    x = x < 0 ? -far : far;
+  const double blocks = (double)(int64_t)(x / block);
+  const double low = rounded(x - blocks * block, rule.up, rule.down, rule.of_magnitude);
+  const int64_t code = (int64_t)(blocks * block) + (int64_t)low, kept = bring_into_range(code, format);
+  if (kept != code || beyond) *clipped = 1;
+  return (int32_t)kept;
+}
+
+int32_t hm_quantise(double value, int shift, const hm_format* format, int* clipped) {
+  return hm_code(value * hm_power_of_two(shift + hm_fraction_bits(format)), format, clipped);
+}
+
+/* ---- many values ---- */
 
 static inline double limited(double x, double low, double high) {
   const double below = x > high ? high : x;
   return below < low ? low : below;
 }
 
-/* The loops have no branch that depends on a value: compilers do several values at a time. */
-static void signed_codes(const double* values, uint32_t count, double scale, rounding_rule rule, double low,
-                         double high, uint32_t* words) {
+static inline void saturated_codes(const double* values, uint32_t count, double scale, rounding_rule rule,
+                                   const int of_magnitude, double low, double high, uint32_t* words) {
   for (uint32_t k = 0; k < count; ++k) {
-    const double code = rounded(values[k] * scale, rule.up, rule.down);
+    const double code = rounded(values[k] * scale, rule.up, rule.down, of_magnitude);
     words[k] = (uint32_t)(int32_t)limited(code, low, high);
-  }
-}
-
-static void magnitude_codes(const double* values, uint32_t count, double scale, rounding_rule rule,
-                            double low, double high, uint32_t* words) {
-  for (uint32_t k = 0; k < count; ++k) {
-    const double x = values[k] * scale, size = rounded(magnitude(x), rule.up, rule.down);
-    words[k] = (uint32_t)(int32_t)limited(x < 0 ? -size : size, low, high);
   }
 }
 
@@ -164,9 +134,9 @@ uint32_t hm_codes(const double* values, uint32_t count, double scale, const hm_f
   const rounding_rule rule = rule_of(format->rounding);
   const int64_t high = most(format), low = format->overflow == HM_SAT_SYM ? -high : -high - 1;
   if (rule.of_magnitude)
-    magnitude_codes(values, count, scale, rule, (double)low, (double)high, words);
+    saturated_codes(values, count, scale, rule, 1, (double)low, (double)high, words);
   else
-    signed_codes(values, count, scale, rule, (double)low, (double)high, words);
+    saturated_codes(values, count, scale, rule, 0, (double)low, (double)high, words);
   return count_clipped(values, count, scale, format, (uint32_t)low, (uint32_t)high, words);
 }
 

@@ -48,7 +48,7 @@
   X(BUS_CYCLES_LO, 0x0A8, RO, 0, "cycles this bus was held since reset, low word")                           \
   X(BUS_CYCLES_HI, 0x0AC, RO, 0, "the same, high word")
 
-/* X(NAME, base, access, meaning). One 32-bit word an element, two's complement, sign extended. */
+/* X(NAME, base, access, meaning). Each element is a 32-bit word, two's complement, sign extended. */
 #define HM_WINDOWS(X)                                                                                        \
   X(FIRST_LINK, 0x10000000, RO, "CAP_CELLS + 1 words: where each cell's neighbours begin in LINK")           \
   X(LINK, 0x20000000, RO, "CAP_LINK_WORDS words: neighbour cells, ascending, cell by cell")                  \

@@ -10,57 +10,81 @@ struct SpecFault {
   std::string key, found, expected;
 };
 
+// What the rules below allow.
+inline constexpr int least_width = 4, most_width = 32; ///< of every format but the accumulator's
+inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
+inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
+inline constexpr int most_lanes = 64;
+inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
+
 namespace detail {
 
-inline std::optional<SpecFault> format_fault(const char* key, const NumberFormat& f, int least_integer_bits) {
-  const std::string found = f.text();
-  if (f.width < 4 || f.width > 32) return SpecFault{key, found, "4 to 32 bits"};
-  if (f.integer_bits < least_integer_bits || f.integer_bits >= f.width)
-    return SpecFault{key, found,
-                     "from " + std::to_string(least_integer_bits) +
+inline std::string from_to(int least, int most) {
+  return std::to_string(least) + " to " + std::to_string(most);
+}
+
+inline std::optional<SpecFault> format_fault(const SignalClass& signal, const NumberFormat& f) {
+  const std::string key = std::string("formats.") + signal.name;
+  if (f.width < least_width || f.width > most_width)
+    return SpecFault{key, f.text(), from_to(least_width, most_width) + " bits"};
+  if (f.integer_bits < signal.least_integer_bits || f.integer_bits >= f.width)
+    return SpecFault{key, f.text(),
+                     "from " + std::to_string(signal.least_integer_bits) +
                          " integer bits to one less than the width" +
-                         (least_integer_bits == 2 ? " (+1 needs two)" : "")};
+                         (signal.least_integer_bits == 2 ? " (+1 needs two)" : "")};
   return std::nullopt;
 }
 
 inline std::optional<SpecFault> accumulator_fault(const ArraySpec& a, std::size_t taps) {
   const NumberFormat exact = exact_accumulator_format(a.formats, taps);
-  if (exact.width > 62)
+  if (exact.width > most_sum_width)
     return SpecFault{"formats.weight", a.formats.weight.text(),
-                     "formats whose exact sum fits 62 bits (this one needs " + std::to_string(exact.width) +
-                         " for rows of " + std::to_string(taps) + " inputs)"};
+                     "formats whose exact sum fits " + std::to_string(most_sum_width) +
+                         " bits (this one needs " + std::to_string(exact.width) + " for rows of " +
+                         std::to_string(taps) + " inputs)"};
   if (a.exact_accumulator) return std::nullopt;
   const NumberFormat& f = a.formats.accumulator;
-  if (f.width < 4 || f.width > 62 || f.integer_bits < 1 || f.fraction_bits() < 0)
-    return SpecFault{"formats.accumulator", f.text(), "4 to 62 bits, at least 1 of them before the point"};
+  if (f.width < least_width || f.width > most_sum_width || f.integer_bits < 1 || f.fraction_bits() < 0)
+    return SpecFault{"formats.accumulator", f.text(),
+                     from_to(least_width, most_sum_width) + " bits, at least 1 of them before the point"};
   if (f.fraction_bits() > exact.fraction_bits())
     return SpecFault{"formats.accumulator", f.text(),
                      "at most the " + std::to_string(exact.fraction_bits()) + " fraction bits of a product"};
   return std::nullopt;
 }
 
+inline std::optional<SpecFault> formats_fault(const ArraySpec& a, std::size_t taps) {
+  const Formats& f = a.formats;
+  for (const SignalClass& signal : signal_classes)
+    if (signal.format != &Formats::accumulator)
+      if (auto fault = format_fault(signal, f.*signal.format)) return fault;
+  if (f.link.fraction_bits() > f.state.fraction_bits())
+    return SpecFault{"formats.link", f.link.text(),
+                     "at most the state's " + std::to_string(f.state.fraction_bits()) + " fraction bits"};
+  return accumulator_fault(a, taps);
+}
+
 } // namespace detail
 
 /// Nothing if the array can be built for rows of at most `taps` inputs, else the first rule it breaks.
 inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 1) {
-  const Formats& f = a.formats;
-  if (auto fault = detail::format_fault("formats.weight", f.weight, 1)) return fault;
-  if (auto fault = detail::format_fault("formats.bias", f.bias, 1)) return fault;
-  if (auto fault = detail::format_fault("formats.drive", f.drive, 2)) return fault;
-  if (auto fault = detail::format_fault("formats.state", f.state, 2)) return fault;
-  if (auto fault = detail::format_fault("formats.link", f.link, 2)) return fault;
-  if (f.link.fraction_bits() > f.state.fraction_bits())
-    return SpecFault{"formats.link", f.link.text(),
-                     "at most the state's " + std::to_string(f.state.fraction_bits()) + " fraction bits"};
-  if (auto fault = detail::accumulator_fault(a, taps)) return fault;
-  if (a.lanes < 1 || a.lanes > 64) return SpecFault{"array.lanes", std::to_string(a.lanes), "1 to 64"};
-  if (a.reciprocal_bits < 4 || a.reciprocal_bits > 32)
-    return SpecFault{"array.reciprocal_bits", std::to_string(a.reciprocal_bits), "4 to 32"};
-  if (a.bus_bits != 32 && a.bus_bits != 64 && a.bus_bits != 128)
+  if (auto fault = detail::formats_fault(a, taps)) return fault;
+  if (a.lanes < 1 || a.lanes > most_lanes)
+    return SpecFault{"array.lanes", std::to_string(a.lanes), detail::from_to(1, most_lanes)};
+  if (a.reciprocal_bits < least_reciprocal_bits || a.reciprocal_bits > most_reciprocal_bits)
+    return SpecFault{"array.reciprocal_bits", std::to_string(a.reciprocal_bits),
+                     detail::from_to(least_reciprocal_bits, most_reciprocal_bits)};
+  if (std::find(bus_widths.begin(), bus_widths.end(), a.bus_bits) == bus_widths.end())
     return SpecFault{"array.bus_bits", std::to_string(a.bus_bits), "32, 64 or 128"};
   if (!(a.clock_mhz > 0 && a.clock_mhz <= 10000))
     return SpecFault{"array.clock_mhz", std::to_string(a.clock_mhz), "above 0, at most 10000"};
   return std::nullopt;
+}
+
+/// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated
+/// reciprocal. What an array is that nobody changed.
+inline ArraySpec guarded_array() {
+  return {};
 }
 
 /// `descent`: exact sums, state = link, all rounding toward zero: the energy can only fall
@@ -68,24 +92,14 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
 inline ArraySpec descent_array() {
   ArraySpec a;
   a.name = "descent";
-  return a;
-}
-
-/// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated
-/// reciprocal.
-inline ArraySpec guarded_array() {
-  ArraySpec a;
-  a.name = "guarded";
-  a.normaliser = Normaliser::reciprocal;
-  a.formats.drive = NumberFormat{18, 2, Rounding::rnd, Overflow::sat};
-  a.formats.state = NumberFormat{24, 2, Rounding::rnd, Overflow::sat};
-  a.formats.link = NumberFormat{16, 2, Rounding::rnd, Overflow::sat};
+  a.normaliser = Normaliser::divider;
+  a.formats.drive = a.formats.state = a.formats.link = NumberFormat{16, 2, Rounding::trn_zero, Overflow::sat};
   return a;
 }
 
 /// `prescaled`: the host divides every row by its N, so the cell needs neither divider nor reciprocal.
 inline ArraySpec prescaled_array() {
-  ArraySpec a = guarded_array();
+  ArraySpec a;
   a.name = "prescaled";
   a.normaliser = Normaliser::prescaled;
   a.formats.weight = NumberFormat{16, 1, Rounding::trn_zero, Overflow::sat};
@@ -97,6 +111,7 @@ inline ArraySpec prescaled_array() {
 inline ArraySpec byte_array() {
   ArraySpec a;
   a.name = "byte";
+  a.normaliser = Normaliser::divider;
   a.formats.weight = NumberFormat{8, 1, Rounding::rnd, Overflow::sat};
   a.formats.bias = NumberFormat{12, 5, Rounding::rnd, Overflow::sat};
   a.formats.drive = a.formats.state = a.formats.link = NumberFormat{8, 2, Rounding::trn_zero, Overflow::sat};

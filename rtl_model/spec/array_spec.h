@@ -11,16 +11,27 @@
 
 namespace hopmesh::spec {
 
-/// Who fires together: neurons of one colour; one neuron at a time; all at once (no proof of descent).
-enum class Schedule : std::uint8_t { coloured, sequential, synchronous };
+/// Which neurons fire together, all reading the outputs from before the phase.
+enum class Schedule : std::uint8_t {
+  coloured,   ///< those of one colour of cells: no two of them are joined
+  sequential, ///< one neuron at a time, in number order
+  synchronous ///< all at once; the energy may rise
+};
 inline constexpr std::array<std::string_view, 3> schedule_names{"coloured", "sequential", "synchronous"};
 
-/// How u = s / N is made: rows divided by N on the host; truncated reciprocal in the cell; exact divider.
-enum class Normaliser : std::uint8_t { prescaled, reciprocal, divider };
+/// How u = s / N is made.
+enum class Normaliser : std::uint8_t {
+  prescaled,  ///< not in the cell: the host divides each row by its N before it loads it
+  reciprocal, ///< s times a truncated reciprocal of N, which each row works out once a run
+  divider     ///< an exact quotient, one bit a cycle
+};
 inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "reciprocal", "divider"};
 
-/// How V follows from s: a step toward the bound that s points to, by s / N; or that bound at once, sign(s).
-enum class Output : std::uint8_t { modified, binary };
+/// How V follows from s.
+enum class Output : std::uint8_t {
+  modified, ///< a step toward the bound that s points to, by s / N
+  binary    ///< that bound at once, the sign of s; a sum of zero leaves V as it is
+};
 inline constexpr std::array<std::string_view, 2> output_names{"modified", "binary"};
 
 inline std::string_view name_of(Schedule s) {
@@ -33,27 +44,56 @@ inline std::string_view name_of(Output o) {
   return output_names[static_cast<std::size_t>(o)];
 }
 
-/// Number format of each class of signals. `bias` counts in units of weight (its point lies where it says).
-/// `accumulator` is used only if !exact_accumulator; otherwise it is derived, wide enough for every sum.
+/// Number format of each class of signals: those of the preset `guarded`.
 struct Formats {
+  /// A weight of a row.
   NumberFormat weight{16, 1, Rounding::rnd, Overflow::sat};
+  /// External input of a neuron, in units of weight: its point lies where its own format says.
   NumberFormat bias{24, 9, Rounding::rnd, Overflow::sat};
+  /// The sum s. Looked at only if !exact_accumulator; otherwise it is derived, wide enough for every sum.
   NumberFormat accumulator{40, 12, Rounding::trn, Overflow::sat};
-  NumberFormat drive{16, 2, Rounding::trn_zero, Overflow::sat}; ///< u = s / N
-  NumberFormat state{16, 2, Rounding::trn_zero, Overflow::sat}; ///< V inside the output stage
-  NumberFormat link{16, 2, Rounding::trn_zero, Overflow::sat};  ///< V as neighbours see it
+  /// u = s / N, or the sign of s.
+  NumberFormat drive{18, 2, Rounding::rnd, Overflow::sat};
+  /// V inside the output stage, and on the bus; with more places than the link has, small steps add up.
+  NumberFormat state{24, 2, Rounding::rnd, Overflow::sat};
+  /// V as neighbours, and the neuron itself, see it.
+  NumberFormat link{16, 2, Rounding::rnd, Overflow::sat};
 };
 
+/// A class of signals: its name in keys, where its format stands, and the integer bits that it cannot do
+/// without (two where +1 must have a code).
+struct SignalClass {
+  const char* name;
+  NumberFormat Formats::*format;
+  int least_integer_bits;
+};
+inline constexpr std::array<SignalClass, 6> signal_classes{{{"weight", &Formats::weight, 1},
+                                                            {"bias", &Formats::bias, 1},
+                                                            {"accumulator", &Formats::accumulator, 1},
+                                                            {"drive", &Formats::drive, 2},
+                                                            {"state", &Formats::state, 2},
+                                                            {"link", &Formats::link, 2}}};
+
+/// An array that nobody changed is the preset `guarded`, the default (docs/decisions/0002-default-array.md).
 struct ArraySpec {
-  std::string name = "custom";
+  /// What reports call it.
+  std::string name = "guarded";
+  /// Which neurons fire together: decides bits (who reads new values) and cycles (phases of a sweep).
   Schedule schedule = Schedule::coloured;
-  int lanes = 1; ///< multipliers per neuron: taps taken per cycle
+  /// Multipliers per neuron: taps of a row taken per cycle. Changes bits only if the accumulator rounds.
+  int lanes = 1;
+  /// How V follows from s.
   Output output = Output::modified;
-  Normaliser normaliser = Normaliser::divider; ///< binary outputs need none, and none is looked at
-  int reciprocal_bits = 18;                    ///< width of the reciprocal's mantissa (unsigned, truncated)
+  /// How s / N is made; a binary output has none, and this is not looked at.
+  Normaliser normaliser = Normaliser::reciprocal;
+  /// Width of the reciprocal's mantissa, unsigned and truncated; looked at only with that normaliser.
+  int reciprocal_bits = 18;
+  /// The accumulator holds every place of every sum; otherwise formats.accumulator, rounded once a cycle.
   bool exact_accumulator = true;
-  int bus_bits = 32;        ///< data width of the host bus: 32, 64 or 128
-  double clock_mhz = 100.0; ///< only for times in seconds; changes neither bits nor cycles
+  /// Data width of the host bus: 32, 64 or 128. Changes only the cycles that transfers hold it.
+  int bus_bits = 32;
+  /// Only for times in seconds; changes neither bits nor cycles.
+  double clock_mhz = 100.0;
   Formats formats;
 };
 
@@ -83,6 +123,13 @@ inline NumberFormat exact_accumulator_format(const Formats& f, std::size_t taps)
 /// The accumulator's format as built for rows of at most `taps` inputs.
 inline NumberFormat accumulator_format(const ArraySpec& a, std::size_t taps) {
   return a.exact_accumulator ? exact_accumulator_format(a.formats, taps) : a.formats.accumulator;
+}
+
+/// All formats as built for rows of at most `taps` inputs: those of the array, with that accumulator.
+inline Formats built_formats(const ArraySpec& a, std::size_t taps) {
+  Formats f = a.formats;
+  f.accumulator = accumulator_format(a, taps);
+  return f;
 }
 
 } // namespace hopmesh::spec

@@ -11,13 +11,27 @@
 
 namespace hopmesh::spec {
 
-/// Rounding modes in SystemC's order (sc_q_mode, IEEE 1666 7.10.9.1).
-enum class Rounding : std::uint8_t { rnd, rnd_zero, rnd_min_inf, rnd_inf, rnd_conv, trn, trn_zero };
+/// What becomes of a value between two codes, in SystemC's order (sc_q_mode, IEEE 1666 7.10.9.1).
+/// docs/hardware/number-formats.md draws each mode as a staircase.
+enum class Rounding : std::uint8_t {
+  rnd,         ///< to the nearest code; a tie goes up
+  rnd_zero,    ///< to the nearest code; a tie goes toward zero
+  rnd_min_inf, ///< to the nearest code; a tie goes down
+  rnd_inf,     ///< to the nearest code; a tie goes away from zero
+  rnd_conv,    ///< to the nearest code; a tie goes to the even code
+  trn,         ///< down: the bits behind the last place are cut off
+  trn_zero     ///< toward zero: the magnitude is cut off
+};
 inline constexpr std::array<std::string_view, 7> rounding_names{
     "SC_RND", "SC_RND_ZERO", "SC_RND_MIN_INF", "SC_RND_INF", "SC_RND_CONV", "SC_TRN", "SC_TRN_ZERO"};
 
-/// Overflow modes in SystemC's order (sc_o_mode); SC_WRAP is SystemC's with zero saturated bits.
-enum class Overflow : std::uint8_t { sat, sat_zero, sat_sym, wrap };
+/// What becomes of a code beyond the format's range, in SystemC's order (sc_o_mode).
+enum class Overflow : std::uint8_t {
+  sat,      ///< the nearest end of the range
+  sat_zero, ///< zero
+  sat_sym, ///< the nearest end of a range without its least code, so that both ends are equally far from zero
+  wrap     ///< the low bits, sign extended: SystemC's SC_WRAP with zero saturated bits
+};
 inline constexpr std::array<std::string_view, 4> overflow_names{"SC_SAT", "SC_SAT_ZERO", "SC_SAT_SYM",
                                                                 "SC_WRAP"};
 

@@ -9,7 +9,7 @@
 
 namespace hopmesh::spec {
 
-/// Neurons are numbered cell * neurons_per_cell + p. One entry a phase: the neurons that fire in it,
+/// Neurons are numbered cell * neurons_per_cell + p. An entry is a phase: the neurons that fire in it,
 /// ascending.
 using Phases = std::vector<std::vector<std::uint32_t>>;
 
@@ -80,6 +80,36 @@ inline CycleModel cycle_model(const ArraySpec& a, const Topology& t, const Phase
   }
   m.sweep += 1;
   return m;
+}
+
+/// A run walks through segments, which waves show by number: first_phase + k is phase k of a sweep.
+struct Segment {
+  enum Number : int { idle, start, prepare, check, first_phase };
+};
+
+inline std::uint64_t segment_cycles(const CycleModel& m, int segment) {
+  switch (segment) {
+  case Segment::idle:
+    return 0;
+  case Segment::start:
+  case Segment::check:
+    return 1;
+  case Segment::prepare:
+    return m.prepare;
+  default:
+    return m.phase[static_cast<std::size_t>(segment - Segment::first_phase)];
+  }
+}
+
+/// The segment that follows: START is taken, N is prepared where the array sums it, then sweep after sweep of
+/// all phases and a check, until a check finds the run to be over.
+inline int next_segment(const CycleModel& m, int segment, bool over) {
+  const int phases_end = Segment::first_phase + static_cast<int>(m.phase.size());
+  if (segment == Segment::idle) return Segment::start;
+  if (segment == Segment::start && m.prepare > 0) return Segment::prepare;
+  if (segment == Segment::check && over) return Segment::idle;
+  const int next = segment < Segment::first_phase ? +Segment::first_phase : segment + 1;
+  return next < phases_end ? next : +Segment::check;
 }
 
 /// Cycles that a transfer of `words` 32-bit words holds the bus: one for the address, then the data beats.

@@ -1,5 +1,7 @@
 #include "rtl_model/systemc/cell.h"
 
+#include "rtl_model/spec/signals.h"
+
 namespace hopmesh::systemc {
 
 Cell::Cell(sc_core::sc_module_name name, const ArrayContext& context, std::size_t index,
@@ -8,7 +10,7 @@ Cell::Cell(sc_core::sc_module_name name, const ArrayContext& context, std::size_
   out.bind(link_);
   const std::size_t taps = context.topology.taps(index);
   for (std::size_t p = 0; p < phases.size(); ++p) {
-    const std::string neuron = "neuron_" + std::to_string(p);
+    const std::string neuron = spec::neuron_scope(p);
     neurons_.push_back(std::make_unique<Neuron>(neuron.c_str(), context, phases[p], taps, link_, p));
   }
 }

@@ -1,5 +1,7 @@
 #include "rtl_model/systemc/cellular_array.h"
 
+#include "rtl_model/spec/signals.h"
+
 namespace hopmesh::systemc {
 
 CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec& array,
@@ -7,18 +9,13 @@ CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec
     : sc_module(name), array_(array), topology_(topology),
       phases_(spec::phases_of(topology_, array_.schedule)),
       cycles_(spec::cycle_model(array_, topology_, phases_)), period_(1.0 / array.clock_mhz, sc_core::SC_US),
-      detector("detector"), sequencer("sequencer", cycles_, period_, detector),
-      context_{array_,
-               topology_,
-               Datapath(array_, spec::accumulator_format(array_, topology_.most_taps()),
-                        topology_.neurons_per_cell),
-               sequencer,
-               detector,
-               extremes} {
+      detector("detector"), sequencer(spec::sequencer_signals::scope, cycles_, period_, detector),
+      context_{array_,    topology_, Datapath(array_, topology_.most_taps(), topology_.neurons_per_cell),
+               sequencer, detector,  extremes} {
   const auto phase = spec::phase_of_neurons(topology_, phases_);
   const std::size_t per_cell = topology_.neurons_per_cell;
   for (std::size_t c = 0; c < topology_.cells(); ++c) {
-    const std::string cell = "cell_" + std::to_string(c);
+    const std::string cell = spec::cell_scope(c);
     cells_.push_back(std::make_unique<Cell>(
         cell.c_str(), context_, c,
         std::vector<std::size_t>(phase.begin() + c * per_cell, phase.begin() + (c + 1) * per_cell)));

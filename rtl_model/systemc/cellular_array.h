@@ -30,7 +30,7 @@ class CellularArray : public sc_core::sc_module {
 
  public:
   ConvergenceDetector detector;
-  Extremes extremes;
+  spec::Extremes extremes;
   Sequencer sequencer;
 
  private:

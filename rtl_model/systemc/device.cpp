@@ -1,15 +1,13 @@
 #include "rtl_model/systemc/device.h"
 
+#include "rtl_model/spec/capabilities.h"
+#include "rtl_model/spec/signals.h"
+
 #include <cstring>
 
 namespace hopmesh::systemc {
 
 namespace {
-
-std::uint32_t packed(const spec::NumberFormat& f) {
-  return static_cast<std::uint32_t>(f.width) | static_cast<std::uint32_t>(f.integer_bits & 255) << 8 |
-         static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
-}
 
 /// The low bits that a memory of this format keeps, sign extended.
 std::int32_t cut(std::uint32_t word, const spec::NumberFormat& f) {
@@ -20,7 +18,8 @@ std::int32_t cut(std::uint32_t word, const spec::NumberFormat& f) {
 } // namespace
 
 Device::Device(sc_core::sc_module_name name, const spec::ArraySpec& array, const spec::Topology& topology)
-    : sc_module(name), socket("socket"), irq("irq"), cells("cells", array, topology) {
+    : sc_module(name), socket("socket"), irq(spec::irq_signal.name),
+      cells(spec::cells_scope, array, topology) {
   socket.register_b_transport(this, &Device::b_transport);
   socket.register_transport_dbg(this, &Device::transport_dbg);
   SC_METHOD(on_run_done);
@@ -28,31 +27,10 @@ Device::Device(sc_core::sc_module_name name, const spec::ArraySpec& array, const
   dont_initialize();
   SC_METHOD(drive_irq);
   sensitive << irq_changed_;
-  set_capabilities();
+  for (const auto& [offset, word] :
+       spec::capability_words(cells.array(), cells.topology(), cells.phases().size()))
+    registers_.set(offset, word);
   set_windows();
-}
-
-void Device::set_capabilities() {
-  const spec::ArraySpec& a = cells.array();
-  const spec::Topology& t = cells.topology();
-  const auto word = [](auto value) { return static_cast<std::uint32_t>(value); };
-  registers_.set(HM_REG_CAP_CELLS, word(t.cells()));
-  registers_.set(HM_REG_CAP_NEURONS_PER_CELL, word(t.neurons_per_cell));
-  registers_.set(HM_REG_CAP_LINK_WORDS, word(t.link_to.size()));
-  registers_.set(HM_REG_CAP_WEIGHT_WORDS, word(t.weight_words()));
-  registers_.set(HM_REG_CAP_PHASES, word(cells.phases().size()));
-  registers_.set(HM_REG_CAP_SCHEDULE, word(a.schedule));
-  registers_.set(HM_REG_CAP_NORMALISER, word(a.normaliser));
-  registers_.set(HM_REG_CAP_RECIPROCAL_BITS, word(a.reciprocal_bits));
-  registers_.set(HM_REG_CAP_LANES, word(a.lanes));
-  registers_.set(HM_REG_CAP_BUS_BITS, word(a.bus_bits));
-  registers_.set(HM_REG_CAP_FORMAT_WEIGHT, packed(a.formats.weight));
-  registers_.set(HM_REG_CAP_FORMAT_BIAS, packed(a.formats.bias));
-  registers_.set(HM_REG_CAP_FORMAT_DRIVE, packed(a.formats.drive));
-  registers_.set(HM_REG_CAP_FORMAT_STATE, packed(a.formats.state));
-  registers_.set(HM_REG_CAP_FORMAT_LINK, packed(a.formats.link));
-  registers_.set(HM_REG_CAP_FORMAT_ACCUMULATOR, packed(spec::accumulator_format(a, t.most_taps())));
-  registers_.set(HM_REG_CAP_OUTPUT, word(a.output));
 }
 
 void Device::set_windows() {

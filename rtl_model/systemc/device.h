@@ -59,7 +59,6 @@ class Device : public sc_core::sc_module {
   bool busy() const;
   void start_run(const sc_core::sc_time& delay);
   void reset_array();
-  void set_capabilities();
   void set_windows();
   void on_run_done();
   void drive_irq();

@@ -1,6 +1,7 @@
 #include "rtl_model/systemc/input_accumulator.h"
 
 #include "rtl_model/systemc/rounding.h"
+#include "rtl_model/systemc/trace.h"
 
 #include <cstdlib>
 
@@ -12,9 +13,9 @@ InputAccumulator::InputAccumulator(sc_core::sc_module_name name, const Datapath&
 }
 
 void InputAccumulator::begin_sum() {
-  const auto& q = path_.accumulator;
-  sum_ = path_.exact ? bias_ * (std::int64_t{1} << -path_.bias_places)
-                     : into_range<Wide>(round_places<Wide>(bias_, path_.bias_places, q.rounding), q);
+  const auto& q = path_.formats.accumulator;
+  sum_ = path_.exact ? bias_ * (std::int64_t{1} << -path_.bias_down)
+                     : into_range<Wide>(round_places<Wide>(bias_, path_.bias_down, q.rounding), q);
 }
 
 void InputAccumulator::sum_beat(std::size_t k) {
@@ -28,12 +29,12 @@ void InputAccumulator::sum_row() {
 }
 
 void InputAccumulator::begin_norm() {
-  norm_ = std::abs(std::int64_t{bias_}) << path_.bias_norm_up;
+  norm_ = std::abs(std::int64_t{bias_}) << path_.bias_up;
 }
 
 void InputAccumulator::norm_beat(std::size_t k) {
   for (std::size_t t = k * path_.lanes; t < std::min(taps(), (k + 1) * path_.lanes); ++t)
-    norm_ += std::abs(std::int64_t{weights_[t]}) << path_.weight_norm_up;
+    norm_ += std::abs(std::int64_t{weights_[t]}) << path_.weight_up;
 }
 
 void InputAccumulator::norm_row() {
@@ -63,12 +64,14 @@ void InputAccumulator::add(std::int64_t products) {
     return;
   }
   const Wide exact = Wide{sum_} * (Wide{1} << path_.sum_up) + Wide{products} * (Wide{1} << path_.product_up);
-  sum_ = into_range(round_places(exact, path_.sum_up, path_.accumulator.rounding), path_.accumulator);
+  sum_ = into_range(round_places(exact, path_.sum_up, path_.formats.accumulator.rounding),
+                    path_.formats.accumulator);
 }
 
 void InputAccumulator::trace(sc_core::sc_trace_file* file) const {
-  sc_core::sc_trace(file, sum_, std::string(name()) + ".s", path_.accumulator.width);
-  sc_core::sc_trace(file, norm_, std::string(name()) + ".norm");
+  const spec::NeuronSignals signals = spec::neuron_signals(path_.formats);
+  trace_register(file, sum_, *this, signals.sum);
+  trace_register(file, norm_, *this, signals.norm);
 }
 
 } // namespace hopmesh::systemc

@@ -13,7 +13,7 @@ class LinkIf : public sc_core::sc_interface {
   virtual const std::int32_t* wires() const = 0;
 };
 
-/// One cell's link register. A write shows after the update phase, so all neurons of a phase read what was
+/// The link register of a cell. A write shows after the update phase, so all neurons of a phase read what was
 /// there before.
 class LinkRegister : public sc_core::sc_prim_channel, public LinkIf {
  public:

@@ -1,12 +1,15 @@
 #include "rtl_model/systemc/neuron.h"
 
+#include "rtl_model/spec/signals.h"
+
 namespace hopmesh::systemc {
 
 Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::size_t phase, std::size_t taps,
                LinkRegister& link, std::size_t p)
-    : sc_module(name), accumulator("accumulator", context.path, taps), output("output", context.path),
-      sequencer_(context.sequencer), detector_(context.detector), extremes_(context.extremes), link_(link),
-      p_(p), segment_(Sequencer::first_phase + static_cast<int>(phase)),
+    : sc_module(name), accumulator(spec::accumulator_scope, context.path, taps),
+      output(spec::output_scope, context.path), sequencer_(context.sequencer), detector_(context.detector),
+      extremes_(context.extremes), link_(link), p_(p),
+      segment_(spec::Segment::first_phase + static_cast<int>(phase)),
       phase_cycles_(context.sequencer.phase_cycles(phase)),
       normalise_cycles_(spec::normalise_cycles(context.array)) {
   SC_METHOD(on_prepare_done);
@@ -52,7 +55,7 @@ void Neuron::publish() {
 void Neuron::on_clock() {
   const int segment = sequencer_.segment();
   if (segment == segment_) return phase_beat(sequencer_.beat());
-  if (segment == Sequencer::prepare) prepare_beat(sequencer_.beat());
+  if (segment == spec::Segment::prepare) prepare_beat(sequencer_.beat());
 }
 
 void Neuron::prepare_beat(std::uint64_t beat) {

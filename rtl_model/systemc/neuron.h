@@ -1,7 +1,7 @@
-// One two-part neuron: an input accumulator and an output stage, and the processes that wake them.
+// A two-part neuron: an input accumulator and an output stage, and the processes that wake them.
 #pragma once
 
-#include "rtl_model/systemc/extremes.h"
+#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/systemc/input_accumulator.h"
 #include "rtl_model/systemc/link.h"
 #include "rtl_model/systemc/output_stage.h"
@@ -16,7 +16,7 @@ struct ArrayContext {
   const Datapath path;
   Sequencer& sequencer;
   ConvergenceDetector& detector;
-  Extremes& extremes;
+  spec::Extremes& extremes;
 };
 
 class Neuron : public sc_core::sc_module {
@@ -44,7 +44,7 @@ class Neuron : public sc_core::sc_module {
 
   Sequencer& sequencer_;
   ConvergenceDetector& detector_;
-  Extremes& extremes_;
+  spec::Extremes& extremes_;
   LinkRegister& link_;
   const std::size_t p_;
   const int segment_;

@@ -1,5 +1,7 @@
 #include "rtl_model/systemc/output_stage.h"
 
+#include "rtl_model/systemc/trace.h"
+
 namespace hopmesh::systemc {
 
 namespace {
@@ -26,7 +28,7 @@ void OutputStage::set_norm(std::int64_t norm_raw) {
 }
 
 Wide OutputStage::exact_ratio(std::int64_t sum_raw) const {
-  const auto mode = path_.drive.rounding;
+  const auto mode = path_.formats.drive.rounding;
   if (path_.ratio_up < 0) return round_quotient<Wide>(sum_raw, Wide{norm_} << -path_.ratio_up, mode);
   if (path_.narrow)
     return round_quotient<std::int64_t>(sum_raw * (std::int64_t{1} << path_.ratio_up), norm_, mode);
@@ -37,23 +39,24 @@ Wide OutputStage::exact_ratio(std::int64_t sum_raw) const {
 // bound at once, and stays where s is zero.
 void OutputStage::normalise(std::int64_t sum_raw) {
   if (path_.binary) {
-    drive_ = limited(sum_raw, 1) * path_.drive.one_raw();
+    drive_ = limited(sum_raw, 1) * path_.formats.drive.one_raw();
     return;
   }
-  const auto mode = path_.drive.rounding;
+  const auto mode = path_.formats.drive.rounding;
   Wide ratio = 0;
   if (path_.normaliser == spec::Normaliser::prescaled)
-    ratio = round_places<Wide>(sum_raw, path_.scaled_places, mode);
+    ratio = round_places<Wide>(sum_raw, path_.scaled_down, mode);
   else if (norm_ != 0 && path_.normaliser == spec::Normaliser::divider)
     ratio = exact_ratio(sum_raw);
   else if (norm_ != 0)
     ratio = round_places<Wide>(Wide{sum_raw} * reciprocal_, reciprocal_places_, mode);
-  drive_ = limited(into_range(ratio, path_.drive), path_.drive.one_raw());
+  drive_ = limited(into_range(ratio, path_.formats.drive), path_.formats.drive.one_raw());
 }
 
 void OutputStage::bias_by_r() {
-  const std::int64_t one = path_.state.one_raw(), r = drive_ >= 0 ? one - state_ : one + state_;
-  delta_ = round_places<std::int64_t>(r * drive_, path_.drive.fraction_bits(), path_.state.rounding);
+  const std::int64_t one = path_.formats.state.one_raw(), r = drive_ >= 0 ? one - state_ : one + state_;
+  delta_ = round_places<std::int64_t>(r * drive_, path_.formats.drive.fraction_bits(),
+                                      path_.formats.state.rounding);
 }
 
 std::int64_t OutputStage::publish() {
@@ -62,20 +65,20 @@ std::int64_t OutputStage::publish() {
 }
 
 std::int32_t OutputStage::link_raw() const {
-  const int places = path_.state.fraction_bits() - path_.link.fraction_bits();
-  return static_cast<std::int32_t>(round_places(state_, places, path_.link.rounding));
+  return static_cast<std::int32_t>(round_places(state_, path_.link_down, path_.formats.link.rounding));
 }
 
 void OutputStage::load(std::int32_t raw) {
-  const int unused = 32 - path_.state.width;
+  const int unused = 32 - path_.formats.state.width;
   const std::int32_t cut = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) << unused) >> unused;
-  state_ = limited(cut, path_.state.one_raw());
+  state_ = limited(cut, path_.formats.state.one_raw());
 }
 
 void OutputStage::trace(sc_core::sc_trace_file* file) const {
-  sc_core::sc_trace(file, drive_, std::string(name()) + ".u", path_.drive.width);
-  sc_core::sc_trace(file, delta_, std::string(name()) + ".delta", path_.state.width + 1);
-  sc_core::sc_trace(file, state_, std::string(name()) + ".V", path_.state.width);
+  const spec::NeuronSignals signals = spec::neuron_signals(path_.formats);
+  trace_register(file, drive_, *this, signals.drive);
+  trace_register(file, delta_, *this, signals.change);
+  trace_register(file, state_, *this, signals.state);
 }
 
 } // namespace hopmesh::systemc

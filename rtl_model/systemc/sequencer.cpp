@@ -1,13 +1,17 @@
 #include "rtl_model/systemc/sequencer.h"
 
+#include "rtl_model/systemc/trace.h"
+
 namespace hopmesh::systemc {
 
 using sc_core::sc_time;
+using spec::Segment;
 
 Sequencer::Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_time period,
                      ConvergenceDetector& detector)
     : sc_module(name), cycles_(cycles), period_(period), detector_(detector),
-      phase_done_(cycles.phase.size()), clock_("clock", false), segment_("segment", idle), beat_("beat", 0) {
+      phase_done_(cycles.phase.size()), clock_("clock", false), segment_("segment", Segment::idle),
+      beat_("beat", 0) {
   SC_METHOD(on_segment_end);
   sensitive << segment_end_;
   dont_initialize();
@@ -25,33 +29,15 @@ void Sequencer::begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_
   busy_ = true;
   converged_ = false;
   sweeps_ = run_cycles_ = 0;
-  at_ = idle;
+  at_ = Segment::idle;
   const sc_time asked = sc_core::sc_time_stamp() + delay;
   const sc_time late = asked % period_;
   segment_end_.notify(late == sc_core::SC_ZERO_TIME ? delay : delay + period_ - late);
 }
 
-std::uint64_t Sequencer::length_of(int segment) const {
-  switch (segment) {
-  case idle:
-    return 0;
-  case prepare:
-    return cycles_.prepare;
-  case start:
-  case check:
-    return 1;
-  default:
-    return cycles_.phase[segment - first_phase];
-  }
-}
-
-int Sequencer::next_segment() const {
-  const int phases_end = first_phase + static_cast<int>(cycles_.phase.size());
-  if (at_ == idle) return start;
-  if (at_ == start && cycles_.prepare > 0) return prepare;
-  if (at_ == start || at_ == prepare) return first_phase;
-  if (at_ == check) return converged_ || sweeps_ == max_sweeps_ ? idle : first_phase;
-  return at_ + 1 < phases_end ? at_ + 1 : check;
+// Of the run: does it end with the check at hand?
+bool Sequencer::over() const {
+  return converged_ || sweeps_ == max_sweeps_;
 }
 
 bool Sequencer::walks(std::uint64_t cycles) const {
@@ -61,21 +47,22 @@ bool Sequencer::walks(std::uint64_t cycles) const {
 
 // What a segment leaves behind in its last cycle.
 void Sequencer::leave_segment() {
-  total_cycles_ += length_of(at_);
-  run_cycles_ += length_of(at_);
-  if (at_ != check) return;
+  const std::uint64_t length = spec::segment_cycles(cycles_, at_);
+  total_cycles_ += length;
+  run_cycles_ += length;
+  if (at_ != Segment::check) return;
   sweeps_ += 1;
   converged_ = static_cast<std::uint64_t>(detector_.largest_change()) <= threshold_;
 }
 
 void Sequencer::enter(int segment) {
   at_ = segment;
-  if (at_ == idle) return finish();
-  if (at_ == first_phase) detector_.begin_sweep();
-  const std::uint64_t length = length_of(at_);
+  if (at_ == Segment::idle) return finish();
+  if (at_ == Segment::first_phase) detector_.begin_sweep();
+  const std::uint64_t length = spec::segment_cycles(cycles_, at_);
   const bool was_clocked = clocked_;
   clocked_ = walks(length);
-  segment_ = clocked_ ? at_ : static_cast<int>(idle);
+  segment_ = clocked_ ? at_ : static_cast<int>(Segment::idle);
   beat_ = 0;
   beats_left_ = length;
   if (clocked_) {
@@ -83,14 +70,14 @@ void Sequencer::enter(int segment) {
     return;
   }
   const sc_time end = period_ * static_cast<double>(length);
-  if (at_ == prepare) prepare_done_.notify(end);
-  if (at_ >= first_phase) phase_done_[at_ - first_phase].notify(end);
+  if (at_ == Segment::prepare) prepare_done_.notify(end);
+  if (at_ >= Segment::first_phase) phase_done_[at_ - Segment::first_phase].notify(end);
   segment_end_.notify(end);
 }
 
 void Sequencer::on_segment_end() {
   leave_segment();
-  enter(next_segment());
+  enter(spec::next_segment(cycles_, at_, over()));
 }
 
 // An edge ends a cycle: neurons do the work of the beat shown so far, the next beat shows from now on.
@@ -117,18 +104,18 @@ void Sequencer::toggle_clock() {
 
 void Sequencer::finish() {
   busy_ = clocked_ = false;
-  segment_ = idle;
+  segment_ = Segment::idle;
   beat_ = 0;
   run_done_.notify(sc_core::SC_ZERO_TIME);
 }
 
 void Sequencer::trace(sc_core::sc_trace_file* file) const {
-  const std::string prefix = std::string(name()) + ".";
-  sc_core::sc_trace(file, clock_, prefix + "clock");
-  sc_core::sc_trace(file, segment_, prefix + "segment");
-  sc_core::sc_trace(file, beat_, prefix + "beat");
-  sc_core::sc_trace(file, busy_, prefix + "busy");
-  sc_core::sc_trace(file, sweeps_, prefix + "sweeps");
+  namespace signals = spec::sequencer_signals;
+  sc_core::sc_trace(file, clock_, traced_name(*this, signals::clock));
+  sc_core::sc_trace(file, segment_, traced_name(*this, signals::segment));
+  sc_core::sc_trace(file, beat_, traced_name(*this, signals::beat));
+  sc_core::sc_trace(file, busy_, traced_name(*this, signals::busy));
+  sc_core::sc_trace(file, sweeps_, traced_name(*this, signals::sweeps));
 }
 
 } // namespace hopmesh::systemc

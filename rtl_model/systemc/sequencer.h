@@ -10,7 +10,7 @@
 namespace hopmesh::systemc {
 
 /// How neuron processes wake: at the end of their phase, accounting for its cycles; or at every clock, as in
-/// waves. Both give the same bits at the same times.
+/// waves. Phases and clocks give the same bits at the same times.
 enum class Waking { by_phase, by_clock };
 
 /// Cycles of all runs so far, counted on: [first, last) is walked clock by clock.
@@ -27,16 +27,13 @@ class Sequencer : public sc_core::sc_module {
   Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_core::sc_time period,
             ConvergenceDetector& detector);
 
-  /// Segments are numbered: idle, start, prepare, check, and first_phase + k for phase k.
-  enum Segment : int { idle, start, prepare, check, first_phase };
-
   const sc_core::sc_event& prepare_done() const { return prepare_done_; }
   const sc_core::sc_event& phase_done(std::size_t k) const { return phase_done_[k]; }
   const sc_core::sc_event& run_done() const { return run_done_; }
   const sc_core::sc_signal<bool>& clock() const { return clock_; }
   std::uint64_t phase_cycles(std::size_t k) const { return cycles_.phase[k]; }
   std::uint64_t prepare_cycles() const { return cycles_.prepare; }
-  int segment() const { return segment_.read(); }
+  int segment() const { return segment_.read(); } ///< a number of spec::Segment
   std::uint64_t beat() const { return beat_.read(); }
 
   /// Begins a run on the first clock edge not before now + delay. Only when idle.
@@ -62,8 +59,7 @@ class Sequencer : public sc_core::sc_module {
   void enter(int segment);
   void leave_segment();
   void finish();
-  int next_segment() const;
-  std::uint64_t length_of(int segment) const;
+  bool over() const;
   bool walks(std::uint64_t cycles) const;
 
   const spec::CycleModel cycles_;
@@ -75,7 +71,7 @@ class Sequencer : public sc_core::sc_module {
   sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> segment_; // by one process or the other, never both
   sc_core::sc_signal<std::uint64_t, sc_core::SC_MANY_WRITERS> beat_;
   CycleWindow walked_;
-  int at_ = idle; ///< the segment that runs now; segment_ shows it while clocks run
+  int at_ = spec::Segment::idle; ///< the segment that runs now; segment_ shows it while clocks run
   std::uint64_t beats_left_ = 0;
   bool busy_ = false, converged_ = false, clocked_ = false;
   std::uint64_t threshold_ = 0, max_sweeps_ = 1, sweeps_ = 0, run_cycles_ = 0, total_cycles_ = 0;

@@ -3,33 +3,9 @@
 #include "sim/study/study_points.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
-
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  const auto judge = [=](const std::string& text) {
-    std::int64_t number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, number);
-    if (failure == std::errc() && stop == end && number >= least && number <= most) return std::string();
-    return fmt::format("found {}, expected an integer from {} to {}", text, least, most);
-  };
-  return CLI::Validator(judge, "");
-}
-
-CLI::Validator positive_number() {
-  const auto judge = [](const std::string& text) {
-    double number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, number);
-    if (failure == std::errc() && stop == end && number > 0 && std::isfinite(number)) return std::string();
-    return fmt::format("found {}, expected a number above 0", text);
-  };
-  return CLI::Validator(judge, "");
-}
 
 std::string default_folder(std::string name) {
   std::replace(name.begin(), name.end(), '/', '-');

@@ -1,9 +1,8 @@
 // What the verbs have in common: exit codes, the scene with its array and overrides, checks of flags.
 #pragma once
 
+#include "sim/cli/number_checks.h"
 #include "sim/levels/prepared.h"
-
-#include <CLI/CLI.hpp>
 
 namespace hopmesh::cli {
 
@@ -17,16 +16,10 @@ struct CommonOptions {
 
 /// SCENE, --array, --set.
 void add_common(CLI::App& verb, CommonOptions& options);
-/// The same as a shell takes them back.
+/// SCENE and the flags of add_common as a shell takes them back.
 std::string words_of(const CommonOptions& options);
 /// A word in quotes where a shell would ask for them.
 std::string shell_word(const std::string& word);
-
-/// A check for counts: an integer from `least` to `most` (a billion: as many steps as a scene may have),
-/// refused in words that fit a line.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most = 1'000'000'000);
-/// The same for a number above 0.
-CLI::Validator positive_number();
 
 /// out/NAME; a slash in a name must not lead elsewhere.
 std::string default_folder(std::string name);

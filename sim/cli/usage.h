@@ -6,7 +6,7 @@
 namespace hopmesh::cli {
 
 std::vector<std::string> verb_names(const CLI::App& program);
-/// One sentence for a command line that cannot be understood.
+/// A sentence for a command line that cannot be understood.
 std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error);
 
 /// A check for a number from `least` to `most`, refused in our words.

@@ -1,4 +1,4 @@
-// One run of an array, whole: what is built, what the host writes. All that two levels have to agree on
+// A run of an array, whole: what is built, what the host writes. All that two levels have to agree on
 // follows from it.
 #pragma once
 

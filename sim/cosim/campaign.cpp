@@ -4,14 +4,15 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/cosim/random_job.h"
+#include "sim/input/line_reader.h"
+#include "sim/input/number.h"
+#include "sim/run/children.h"
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
-#include <deque>
 #include <fmt/format.h>
+#include <list>
 #include <poll.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace hopmesh::cosim {
@@ -39,7 +40,7 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
   if (preset) {
     const auto presets = spec::presets();
     array = presets[dice.below(presets.size())];
-    array.schedule = static_cast<spec::Schedule>(dice.below(3));
+    array.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     array.lanes = static_cast<int>(dice.between(1, 6));
     if (dice.one_in(4)) array.output = spec::Output::binary;
   }
@@ -90,7 +91,7 @@ void say(int pipe, const std::string& line) {
   _exit(0); // no destructors: SystemC would spend a third of the batch's time on its own
 }
 
-[[noreturn]] void be_child(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
+int run_batch(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
   std::signal(SIGINT, SIG_IGN); // the parent decides
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGALRM, SIG_DFL);
@@ -99,31 +100,32 @@ void say(int pipe, const std::string& line) {
   } catch (const std::exception& e) {
     say(pipe, fmt::format("e {}\n", e.what()));
   }
-  _exit(0);
+  return run::child_done;
 }
 
 // ---- in the parent ----
 
-struct Child {
-  pid_t pid = -1;
-  int pipe = -1;
-  Batch batch{};
-  std::uint64_t at = 0; ///< the case that it spoke of last
+/// A child at a batch, and what it has said so far.
+struct BatchChild {
+  BatchChild(const Batch& of, int pipe_end, const std::function<int()>& work)
+      : batch(of), pipe(pipe_end), process(work), at(of.first) {}
+  ~BatchChild() { close(pipe); }
+  BatchChild(const BatchChild&) = delete;
+  BatchChild& operator=(const BatchChild&) = delete;
+
+  const Batch batch;
+  const int pipe;
+  run::Child process;
+  std::uint64_t at; ///< the case that it spoke of last
   bool running = false, done = false;
   std::string heard, trouble;
 };
 
 class Parent {
  public:
-  Parent(const Ways& ways, const CampaignPlan& plan, const std::function<void(std::uint64_t)>& progress,
-         const std::atomic<bool>& stop)
+  Parent(const Ways& ways, const CampaignPlan& plan,
+         const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop)
       : ways_(ways), plan_(plan), progress_(progress), stop_(stop), next_(plan.first) {}
-  ~Parent() {
-    for (Child& child : children_) {
-      kill(child.pid, SIGKILL);
-      bury(child);
-    }
-  }
 
   CampaignResult run() {
     const auto began = std::chrono::steady_clock::now();
@@ -135,11 +137,11 @@ class Parent {
              seconds() < plan_.seconds)
         begin_batch();
       if (children_.empty()) break;
-      listen();
+      read_children();
     }
     result_.interrupted = stop_ && !result_.finding;
     result_.next = next_;
-    for (const Child& child : children_)
+    for (const BatchChild& child : children_)
       result_.next = std::min(result_.next, child.running ? child.at : child.batch.first);
     result_.cases = result_.finding ? result_.finding->number - plan_.first : result_.next - plan_.first;
     result_.seconds = seconds();
@@ -150,83 +152,73 @@ class Parent {
   void begin_batch() {
     const Batch batch{next_, std::min(batch_cases, plan_.cases - (next_ - plan_.first))};
     int ends[2];
-    std::fflush(nullptr);
     if (pipe(ends) != 0) throw std::runtime_error("no pipe to a child process can be made");
-    const pid_t pid = fork();
-    if (pid < 0) throw std::runtime_error("no child process can be made");
-    if (pid == 0) {
+    children_.emplace_back(batch, ends[0], [&] {
       close(ends[0]);
-      be_child(ways_, plan_.seed, batch, ends[1]);
-    }
+      return run_batch(ways_, plan_.seed, batch, ends[1]);
+    });
     close(ends[1]);
-    Child child;
-    child.pid = pid, child.pipe = ends[0], child.batch = batch, child.at = batch.first;
-    children_.push_back(child);
     next_ += batch.count;
   }
 
-  void listen() {
+  void read_children() {
     std::vector<pollfd> polls;
-    for (const Child& child : children_) polls.push_back({child.pipe, POLLIN, 0});
+    for (const BatchChild& child : children_) polls.push_back({child.pipe, POLLIN, 0});
     if (poll(polls.data(), polls.size(), 200) <= 0) return;
-    for (std::size_t k = polls.size(); k-- > 0;)
-      if (polls[k].revents != 0 && !hear(children_[k])) end(k);
+    auto child = children_.begin();
+    for (const pollfd& answer : polls) {
+      const auto next = std::next(child);
+      if (answer.revents != 0 && !read_from(*child)) end(child);
+      child = next;
+    }
     report();
   }
 
-  // What a child said; false at its end.
-  bool hear(Child& child) {
+  /// False at the end of what a child says.
+  bool read_from(BatchChild& child) {
     char block[4096];
     const ssize_t n = read(child.pipe, block, sizeof block);
     if (n < 0) return errno == EINTR;
     child.heard.append(block, static_cast<std::size_t>(n));
     for (std::size_t end; (end = child.heard.find('\n')) != std::string::npos; child.heard.erase(0, end + 1))
-      understand(child, child.heard.substr(0, end));
+      take_line(child, child.heard.substr(0, end));
     return n > 0;
   }
 
-  void understand(Child& child, const std::string& line) {
-    const std::string rest = line.size() > 2 ? line.substr(2) : "";
-    if (line[0] == 'd') child.done = true;
-    if (line[0] == 'e') child.trouble = rest;
-    if (line[0] == 'c') child.at = std::stoull(rest);
-    if (line[0] == 'r') child.at = std::stoull(rest), child.running = true;
-    if (line[0] != 'm') return;
-    std::size_t used = 0, more = 0;
-    const std::uint64_t number = std::stoull(rest, &used);
-    const std::size_t way = std::stoul(rest.substr(used), &more);
-    found({number, way, rest.substr(used + more + 1)});
+  void take_line(BatchChild& child, const std::string& line) {
+    input::Words words(line);
+    const std::string_view what = words.next();
+    if (what == "d") child.done = true;
+    if (what == "e") child.trouble = words.rest();
+    if (what == "c" || what == "r") input::parse_number(words.next(), child.at);
+    if (what == "r") child.running = true;
+    if (what != "m") return;
+    Finding finding;
+    input::parse_number(words.next(), finding.number);
+    input::parse_number(words.next(), finding.way);
+    finding.text = words.rest();
+    found(finding);
   }
 
   void found(const Finding& finding) {
     if (!result_.finding || finding.number < result_.finding->number) result_.finding = finding;
   }
 
-  void end(std::size_t k) {
-    Child& child = children_[k];
-    const int status = bury(child);
-    if (!child.done) {
-      const std::string how = WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status))
-                                                  : "ended before its time";
-      found({child.at, 0,
-             fmt::format("{}: {}", child.running ? "one of the levels" : "while the arrays were made",
-                         child.trouble.empty() ? how : child.trouble)});
+  void end(std::list<BatchChild>::iterator child) {
+    const run::ChildEnd end = child->process.wait();
+    if (!child->done) {
+      const std::string how = end.signal ? run::describe(end) : "ended before its time";
+      found({child->at, 0,
+             fmt::format("{}: {}", child->running ? "one of the levels" : "while the arrays were made",
+                         child->trouble.empty() ? how : child->trouble)});
     }
-    done_ += child.batch.count;
-    children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-
-  static int bury(Child& child) {
-    int status = 0;
-    while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    close(child.pipe);
-    return status;
+    done_ += child->batch.count;
+    children_.erase(child);
   }
 
   void report() {
     std::uint64_t done = done_;
-    for (const Child& child : children_)
+    for (const BatchChild& child : children_)
       if (child.running) done += child.at - child.batch.first;
     progress_(done);
   }
@@ -236,7 +228,7 @@ class Parent {
   const std::function<void(std::uint64_t)>& progress_;
   const std::atomic<bool>& stop_;
   std::uint64_t next_, done_ = 0;
-  std::deque<Child> children_;
+  std::list<BatchChild> children_;
   CampaignResult result_;
 };
 

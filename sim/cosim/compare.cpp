@@ -2,6 +2,7 @@
 
 #include "firmware/registers.h"
 #include "sim/run/counted.h"
+#include "sim/run/run_totals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +28,8 @@ Distance distance(std::uint64_t steps, const std::vector<double>& a, const std::
   return d;
 }
 
-void note(LevelReport& report, const levels::StepRow& row) {
-  report.sweeps += row.sweeps;
-  report.cycles += row.cycles;
-  if (!row.error) return;
-  report.largest_output_error = std::max(report.largest_output_error, row.error->largest_output);
-  report.rms_output_error = std::max(report.rms_output_error, row.error->rms_output);
-  report.largest_energy_gap = std::max(report.largest_energy_gap, row.error->energy_gap);
-  report.largest_network_error = std::max(report.largest_network_error, row.error->network);
+std::uint64_t sum_of(const LevelReport& report, std::uint64_t levels::StepRow::*figure) {
+  return run::count_of(report.rows, figure, levels::Summary::sum);
 }
 
 bool is_mark(std::uint64_t step, std::uint64_t steps) {
@@ -45,7 +40,7 @@ bool is_mark(std::uint64_t step, std::uint64_t steps) {
 
 namespace {
 
-// One step of every level, or how and why there was none.
+// A step of every level, or how and why there was none.
 std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, Comparison& result) {
   std::vector<levels::StepRow> rows;
   try {
@@ -65,7 +60,7 @@ std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, C
 void note_rows(const std::vector<ReadyLevel>& ready, const std::vector<levels::StepRow>& rows,
                Comparison& result) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    note(result.levels[k], rows[k]);
+    result.levels[k].rows.push_back(rows[k]);
     if (rows[k].max_stretch < run::most_stretch) continue;
     result.outcome = run::Outcome::diverged;
     result.sentence = fmt::format("{} diverged in step {}: a spring is {:.3g} times its length.",
@@ -162,7 +157,8 @@ void compare_codes(const std::vector<ReadyLevel>& ready, const std::vector<level
   // The levels' totals have this step in them already.
   for (const LevelReport& report : result.levels)
     if (report.level == result.difference->level[0])
-      result.difference->cycles_before += report.cycles - result.difference->cycles[0];
+      result.difference->cycles_before +=
+          sum_of(report, &levels::StepRow::cycles) - result.difference->cycles[0];
 }
 
 // The reference, where it takes part, comes first.
@@ -180,7 +176,7 @@ Comparison compare(const std::vector<ReadyLevel>& ready, const levels::BuiltMesh
                    const std::function<void(const levels::StepRow&)>& after_step,
                    const std::atomic<bool>& stop) {
   Comparison result;
-  for (const ReadyLevel& c : ready) result.levels.push_back({c.level->name, 0, 0, 0, 0, {}, 0, 0});
+  for (const ReadyLevel& c : ready) result.levels.push_back({c.level->name, {}, {}});
   while (result.steps < steps && !result.difference && result.outcome == run::Outcome::finished) {
     if (stop) {
       result.outcome = run::Outcome::interrupted;
@@ -231,17 +227,23 @@ std::string text_of(const Difference& d, const std::string& inputs) {
 }
 
 std::string text_of(const LevelReport& r) {
-  std::string text = fmt::format("{}: {}", r.level, run::counted(r.sweeps, "sweep"));
-  if (r.cycles > 0) text += fmt::format(", {} cycles", run::grouped(r.cycles)); // the reference has none
+  const auto largest = [&](double levels::ReferenceError::*figure) {
+    return run::total_of(r.rows, figure, levels::Summary::largest);
+  };
+  using Error = levels::ReferenceError;
+  const std::uint64_t cycles = sum_of(r, &levels::StepRow::cycles);
+  std::string text =
+      fmt::format("{}: {}", r.level, run::counted(sum_of(r, &levels::StepRow::sweeps), "sweep"));
+  if (cycles > 0) text += fmt::format(", {} cycles", run::grouped(cycles)); // the reference has none
   text += "\n";
   if (r.distances.empty()) return text;
-  text +=
-      fmt::format("  each step against the reference's answer to the same step:\n"
-                  "    outputs differ by at most {:.3g}, worst rms of a step {:.3g}\n"
-                  "    energy left above the reference's rest: at most {:.3g} of the step's fall\n"
-                  "    weights and biases differ by at most {:.2g} of the largest\n"
-                  "  the free motions part (positions, m):\n",
-                  r.largest_output_error, r.rms_output_error, r.largest_energy_gap, r.largest_network_error);
+  text += fmt::format("  each step against the reference's answer to the same step:\n"
+                      "    outputs differ by at most {:.3g}, worst rms of a step {:.3g}\n"
+                      "    energy left above the reference's rest: at most {:.3g} of the step's fall\n"
+                      "    weights and biases differ by at most {:.2g} of the largest\n"
+                      "  the free motions part (positions, m):\n",
+                      largest(&Error::largest_output), largest(&Error::rms_output),
+                      largest(&Error::energy_gap), largest(&Error::network));
   for (const Distance& d : r.distances)
     text += fmt::format("    after {:>5} step{}  rms {:.3g}  largest {:.3g}\n", d.steps,
                         d.steps == 1 ? " " : "s", d.rms, d.largest);

@@ -16,9 +16,8 @@ struct Distance {
 
 struct LevelReport {
   std::string level;
-  double largest_output_error = 0, rms_output_error = 0, largest_energy_gap = 0, largest_network_error = 0;
+  std::vector<levels::StepRow> rows;
   std::vector<Distance> distances; ///< empty without a reference, and for the reference itself
-  std::uint64_t sweeps = 0, cycles = 0;
 };
 
 struct Difference {

@@ -29,7 +29,7 @@ Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
 
 namespace {
 
-std::string text_of(const RunEnd& e) {
+std::string text_of(const spec::Relaxation& e) {
   return fmt::format("{} sweeps, {}, largest change {}, {} cycles", e.sweeps,
                      e.converged ? "converged" : "not converged", e.largest_change, e.cycles);
 }

@@ -1,4 +1,4 @@
-// The same job put to several arrays: everything that a host can see must be equal.
+// A job put to several arrays: everything that a host can see must be equal.
 #pragma once
 
 #include "sim/cosim/loaded_job.h"
@@ -14,10 +14,10 @@ using Ways = std::vector<Way>;
 struct Answer {
   std::vector<std::uint32_t> capabilities;
   Codes weight, bias, start, output;
-  RunEnd end;
+  spec::Relaxation end;
   std::uint64_t bus_cycles = 0;
   std::vector<Codes> outputs; ///< after every sweep; empty unless asked for
-  std::vector<RunEnd> sweeps;
+  std::vector<spec::Relaxation> sweeps;
 };
 Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep);
 

@@ -16,7 +16,7 @@ struct Timing {
   spec::CycleModel cycles;
 };
 
-/// One input of a neuron: where it comes from, its weight, and the source's V one update earlier.
+/// An input of a neuron: where it comes from, its weight, and the source's V one update earlier.
 struct Tap {
   std::uint32_t cell, component;
   std::int32_t weight_raw, output_raw;

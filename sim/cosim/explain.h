@@ -7,7 +7,7 @@
 
 namespace hopmesh::cosim {
 
-/// One input of the neuron that first differed.
+/// An input of the neuron that first differed.
 struct NeuronInput {
   std::uint32_t node, component;
   std::int32_t weight_raw, output_raw; ///< the source's V one update earlier

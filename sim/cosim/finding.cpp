@@ -1,43 +1,20 @@
 #include "sim/cosim/finding.h"
 
-#include <csignal>
-#include <cstdio>
+#include "sim/run/children.h"
+
 #include <fmt/format.h>
-#include <stdexcept>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace hopmesh::cosim {
 
 namespace {
 
 constexpr unsigned trial_seconds = 60;
-constexpr int crashed = 98, differ = 99;
 
 } // namespace
 
-int in_child(const std::function<int()>& work, unsigned seconds) {
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process can be made");
-  if (child == 0) {
-    std::signal(SIGALRM, SIG_DFL);
-    alarm(seconds);
-    int answer = crashed;
-    try {
-      answer = work();
-    } catch (const std::exception&) { // as good as a crash: the parent is told
-    }
-    _exit(answer);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 100 + WTERMSIG(status);
-}
-
 bool differs_in_child(const Ways& ways, const ArrayJob& job) {
-  return in_child([&] { return contest(ways, job).text.empty() ? 0 : differ; }, trial_seconds) != 0;
+  return !run::run_in_child([&] { return contest(ways, job).text.empty() ? 0 : 1; }, trial_seconds)
+              .good();
 }
 
 Ways involved(const Ways& ways, const Finding& finding) {
@@ -73,7 +50,8 @@ int write_whole(const std::filesystem::path& path, const VectorCase& a_case, con
 void write_finding(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
                    const std::vector<std::string>& comments) {
   files::check_writable(std::filesystem::absolute(path).parent_path(), 1 << 20);
-  if (in_child([&] { return write_whole(path, a_case, ways, comments); }, trial_seconds) == 0) return;
+  const auto write = [&] { return write_whole(path, a_case, ways, comments); };
+  if (run::run_in_child(write, trial_seconds).good()) return;
   VectorWriter file(path); // whoever crashes, the case itself is kept
   for (const std::string& line : comments) file.comment(line);
   file.add(a_case, nullptr);

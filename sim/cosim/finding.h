@@ -7,10 +7,6 @@
 
 namespace hopmesh::cosim {
 
-/// Runs `work` in a child process, so that neither a crash nor SystemC's one elaboration is ours. Its answer
-/// (0 to 99), or 100 and the number of the signal that killed it; after `seconds` it is killed.
-int in_child(const std::function<int()>& work, unsigned seconds);
-
 /// Do these ways disagree on the job, or does one of them crash?
 bool differs_in_child(const Ways& ways, const ArrayJob& job);
 

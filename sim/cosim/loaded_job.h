@@ -8,7 +8,6 @@ namespace hopmesh::cosim {
 
 using levels::BusArray;
 using levels::Codes;
-using levels::RunEnd;
 
 /// Weights, biases and start.
 inline void load(const BusArray& array, const ArrayJob& job) {

@@ -20,7 +20,7 @@ struct Lockstep {
 /// array has no state but V, so what it does here is what it does in one run. The arrays must be idle.
 Lockstep run_in_lockstep(const Buses& buses, const ArrayJob& job, std::uint32_t sweeps);
 
-/// The same question to two arrays whose fault depends on how long a run has lasted: the job from its start,
+/// Where two arrays part whose fault depends on how long a run has lasted: the job from its start,
 /// one sweep further each time. Quadratic.
 std::optional<Divergence> part_from_start(const Buses& two, const ArrayJob& job, std::uint32_t sweeps);
 

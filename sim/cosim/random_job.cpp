@@ -10,11 +10,11 @@ namespace {
 
 spec::NumberFormat random_format(Dice& dice, int least_integer_bits) {
   spec::NumberFormat f;
-  f.width = static_cast<int>(dice.between(4, dice.one_in(2) ? 16 : 32));
+  f.width = static_cast<int>(dice.between(spec::least_width, dice.one_in(2) ? 16 : spec::most_width));
   const int most = dice.one_in(3) ? f.width - 1 : std::min(f.width - 1, least_integer_bits + 2);
   f.integer_bits = static_cast<int>(dice.between(least_integer_bits, most));
-  f.rounding = static_cast<spec::Rounding>(dice.below(7));
-  f.overflow = static_cast<spec::Overflow>(dice.below(4));
+  f.rounding = dice.mode<spec::Rounding>(spec::rounding_names);
+  f.overflow = dice.mode<spec::Overflow>(spec::overflow_names);
   return f;
 }
 
@@ -45,7 +45,7 @@ Edges all_edges(std::size_t cells) {
   return edges;
 }
 
-/// One row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
+/// A row or vector in one of several characters: anything, nothing, all at one end, all of one sign.
 void fill(Dice& dice, const spec::NumberFormat& format, std::int32_t* first, std::size_t count) {
   const std::uint64_t character = dice.below(8);
   for (std::size_t k = 0; k < count; ++k) {
@@ -144,12 +144,13 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
   spec::ArraySpec a;
   a.name = "random";
   do {
-    a.schedule = static_cast<spec::Schedule>(dice.below(3));
+    a.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     a.output = dice.one_in(4) ? spec::Output::binary : spec::Output::modified;
-    a.normaliser = static_cast<spec::Normaliser>(dice.below(3));
-    a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, 64) : dice.between(1, 6));
-    a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
-    a.bus_bits = 32 << dice.below(3);
+    a.normaliser = dice.mode<spec::Normaliser>(spec::normaliser_names);
+    a.lanes = static_cast<int>(dice.one_in(4) ? dice.between(1, spec::most_lanes) : dice.between(1, 6));
+    a.reciprocal_bits =
+        static_cast<int>(dice.between(spec::least_reciprocal_bits, spec::most_reciprocal_bits));
+    a.bus_bits = spec::bus_widths[dice.below(spec::bus_widths.size())];
     a.exact_accumulator = dice.one_in(2);
     a.formats.weight = random_format(dice, 1);
     a.formats.bias = random_format(dice, 1);
@@ -157,10 +158,10 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
     a.formats.state = random_format(dice, 2);
     a.formats.link = dice.one_in(2) ? a.formats.state : random_format(dice, 2);
     a.formats.accumulator = random_format(dice, 1);
-    a.formats.accumulator.width = static_cast<int>(dice.between(4, 62));
+    a.formats.accumulator.width = static_cast<int>(dice.between(spec::least_width, spec::most_sum_width));
     const int width = a.formats.accumulator.width;
     a.formats.accumulator.integer_bits =
-        static_cast<int>(dice.between(1, std::min(width, dice.one_in(2) ? 12 : 62)));
+        static_cast<int>(dice.between(1, std::min(width, dice.one_in(2) ? 12 : spec::most_sum_width)));
   } while (spec::validate(a, taps));
   return a;
 }
@@ -173,7 +174,7 @@ ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topo
   for (std::size_t c = 0; c < topology.cells(); ++c)
     for (int p = 0; p < topology.neurons_per_cell; ++p)
       fill(dice, array.formats.weight, &job.weight[topology.row_offset(c, p)], topology.taps(c));
-  // The same few characters for the biases, cell by cell, so that whole rows of zeros and of extremes occur.
+  // Biases take those few characters, too, cell by cell, so that whole rows of zeros and of extremes occur.
   job.bias.resize(topology.neurons());
   for (std::size_t k = 0; k < topology.neurons(); ++k) fill(dice, array.formats.bias, &job.bias[k], 1);
   job.start.resize(topology.neurons());

@@ -23,6 +23,10 @@ class Dice {
   bool one_in(std::uint64_t n) { return below(n) == 0; }
   /// In [0, 1)
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  /// Any of the modes that have these names.
+  template <typename Mode, std::size_t n> Mode mode(const std::array<std::string_view, n>&) {
+    return static_cast<Mode>(below(n));
+  }
   /// A code of the format: zero, the ends, one last place, powers of two, or anything.
   std::int64_t code(const spec::NumberFormat& format);
 

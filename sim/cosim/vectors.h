@@ -35,13 +35,13 @@ class VectorWriter {
   files::OutputFile file_;
 };
 
-/// One line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
+/// A line of answers. `fire`: V of the neurons of a phase, in the order of the phase's line; else `end`.
 struct AnswerLine {
   int line = 0;
   bool end = false;
   std::uint64_t sweep = 0, phase = 0, cycle = 0;
   Codes codes;
-  RunEnd run; ///< of `end`
+  spec::Relaxation run; ///< of `end`
 };
 
 /// Reads a file line by line, however long it is; throws input::InputError with the line of a mistake.

@@ -17,7 +17,7 @@ struct Judge {
                        a.phase, timing.published(a.sweep, a.phase));
   }
   std::string of_fire(const AnswerLine& a, const Codes& before, const Codes& after) const;
-  std::string of_end(const AnswerLine& a, const RunEnd& end) const;
+  std::string of_end(const AnswerLine& a, const spec::Relaxation& end) const;
 };
 
 std::string inputs_text(const Divergence& d) {
@@ -46,8 +46,8 @@ std::string Judge::of_fire(const AnswerLine& a, const Codes& before, const Codes
   return fmt::format("{}: found cycle {}, expected {}", place(a), a.cycle, cycle);
 }
 
-std::string Judge::of_end(const AnswerLine& a, const RunEnd& end) const {
-  const auto text = [](const RunEnd& e) {
+std::string Judge::of_end(const AnswerLine& a, const spec::Relaxation& end) const {
+  const auto text = [](const spec::Relaxation& e) {
     return fmt::format("end {} {:d} {} {}", e.sweeps, e.converged, e.largest_change, e.cycles);
   };
   if (a.run == end) return "";
@@ -65,7 +65,7 @@ std::string check_answers(const std::string& path, VectorReader& reader, const V
   const BusArray array(bus, job.topology);
   load(array, job);
   const Codes start = array.outputs(); // held within [-1, 1] as it was written
-  const RunEnd end = array.run(job.threshold, job.max_sweeps);
+  const spec::Relaxation end = array.run(job.threshold, job.max_sweeps);
   array.put_outputs(job.start);
   Codes before = start;
   for (std::uint64_t sweep = 1; sweep <= end.sweeps; ++sweep) {

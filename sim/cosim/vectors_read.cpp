@@ -3,12 +3,12 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/input/input_error.h"
+#include "sim/input/number.h"
 #include "sim/input/whole_file.h"
 #include "sim/scene/limits.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -77,9 +77,7 @@ VectorReader::Words VectorReader::expect(const std::string& key, const std::stri
 std::int64_t VectorReader::number(const std::string& word, std::int64_t least, std::int64_t most,
                                   const std::string& what) const {
   std::int64_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, failure] = std::from_chars(word.data(), end, value);
-  if (failure != std::errc() || stop != end || value < least || value > most)
+  if (!input::parse_number(word, value) || value < least || value > most)
     fail(in_quotes(word), fmt::format("{}, an integer from {} to {}", what, least, most));
   return value;
 }

@@ -84,7 +84,7 @@ void VectorWriter::write_answers(const ArrayJob& job, const hm_bus& bus) {
   const Timing timing(job);
   const BusArray array(bus, job.topology);
   load(array, job);
-  const RunEnd end = array.run(job.threshold, job.max_sweeps);
+  const spec::Relaxation end = array.run(job.threshold, job.max_sweeps);
   array.put_outputs(job.start);
   for (std::uint64_t sweep = 1; sweep <= end.sweeps; ++sweep) {
     array.one_sweep();

@@ -20,7 +20,7 @@ template <typename T> struct AlignedAllocator {
     const std::size_t bytes = (count * sizeof(T) + unit - 1) / unit * unit;
     void* at = std::aligned_alloc(unit, bytes);
     if (!at) throw std::bad_alloc();
-    if (unit == huge) madvise(at, bytes, MADV_HUGEPAGE); // a wish: nothing depends on it
+    if (unit == huge) madvise(at, bytes, MADV_HUGEPAGE); // only a request: nothing depends on it
     return static_cast<T*>(at);
   }
   void deallocate(T* at, std::size_t) { std::free(at); }

@@ -1,7 +1,8 @@
 #include "sim/engine/choose.h"
 
-#include "sim/engine/fast_core.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/generic/generic_core.h"
+#include "sim/engine/kernels/fast_core.h"
+#include "sim/engine/kernels/kernel_fit.h"
 
 #include <stdexcept>
 
@@ -12,7 +13,11 @@ const std::vector<std::string>& kernel_names() {
   return names;
 }
 
-std::unique_ptr<Core> make_core(const Plan& plan, const Layout& layout, const std::string& name) {
+std::string why_generic(const NeuronPlan& plan) {
+  return why_no_kernel(plan);
+}
+
+std::unique_ptr<SweepCore> make_core(const NeuronPlan& plan, const Layout& layout, const std::string& name) {
   const std::string why_not = why_no_kernel(plan);
   if (name == "generic" || (name == "auto" && !why_not.empty())) return make_generic_core(plan, layout);
   const auto& names = kernel_names();

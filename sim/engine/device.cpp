@@ -1,6 +1,6 @@
 #include "sim/engine/device.h"
 
-#include "firmware/registers.h"
+#include "rtl_model/spec/capabilities.h"
 
 namespace hopmesh::engine {
 
@@ -27,40 +27,14 @@ const std::array<Rule, 64>& rules() {
 
 constexpr std::uint32_t first_volatile = HM_REG_CONTROL; ///< capabilities lie below, and stay
 
-std::uint32_t format_word(const spec::NumberFormat& f) {
-  return static_cast<std::uint32_t>(f.width) | (static_cast<std::uint32_t>(f.integer_bits) & 255) << 8 |
-         static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
-}
-
 } // namespace
 
 Device::Device(const spec::ArraySpec& array, const spec::Topology& topology, const Options& options,
                const std::atomic<bool>& stop)
     : engine_(array, topology, options), stop_(stop) {
   for (std::size_t k = 0; k < registers_.size(); ++k) registers_[k] = rules()[k].reset;
-  set_capabilities();
-}
-
-void Device::set_capabilities() {
-  const spec::ArraySpec& a = engine_.array();
-  const spec::Topology& t = engine_.topology();
-  reg(HM_REG_CAP_CELLS) = static_cast<std::uint32_t>(t.cells());
-  reg(HM_REG_CAP_NEURONS_PER_CELL) = static_cast<std::uint32_t>(t.neurons_per_cell);
-  reg(HM_REG_CAP_LINK_WORDS) = static_cast<std::uint32_t>(t.link_to.size());
-  reg(HM_REG_CAP_WEIGHT_WORDS) = static_cast<std::uint32_t>(t.weight_words());
-  reg(HM_REG_CAP_PHASES) = static_cast<std::uint32_t>(engine_.phases());
-  reg(HM_REG_CAP_SCHEDULE) = static_cast<std::uint32_t>(a.schedule);
-  reg(HM_REG_CAP_NORMALISER) = static_cast<std::uint32_t>(a.normaliser);
-  reg(HM_REG_CAP_RECIPROCAL_BITS) = static_cast<std::uint32_t>(a.reciprocal_bits);
-  reg(HM_REG_CAP_LANES) = static_cast<std::uint32_t>(a.lanes);
-  reg(HM_REG_CAP_BUS_BITS) = static_cast<std::uint32_t>(a.bus_bits);
-  reg(HM_REG_CAP_FORMAT_WEIGHT) = format_word(a.formats.weight);
-  reg(HM_REG_CAP_FORMAT_BIAS) = format_word(a.formats.bias);
-  reg(HM_REG_CAP_FORMAT_DRIVE) = format_word(a.formats.drive);
-  reg(HM_REG_CAP_FORMAT_STATE) = format_word(a.formats.state);
-  reg(HM_REG_CAP_FORMAT_LINK) = format_word(a.formats.link);
-  reg(HM_REG_CAP_FORMAT_ACCUMULATOR) = format_word(spec::accumulator_format(a, t.most_taps()));
-  reg(HM_REG_CAP_OUTPUT) = static_cast<std::uint32_t>(a.output);
+  for (const auto& [offset, word] : spec::capability_words(array, topology, engine_.phases()))
+    reg(offset) = word;
 }
 
 bool Device::busy() const {
@@ -192,7 +166,7 @@ int Device::wait_for_irq() {
 }
 
 void Device::finish() {
-  const RunResult& r = engine_.result();
+  const spec::Relaxation& r = engine_.result();
   reg(HM_REG_STATUS) = HM_STATUS_DONE | (r.converged ? HM_STATUS_CONVERGED : 0);
   reg(HM_REG_SWEEPS) = r.sweeps;
   reg(HM_REG_LARGEST_CHANGE) = r.largest_change;

@@ -39,7 +39,6 @@ class Device : public HostBus {
   void hold_bus(std::uint32_t words);
   std::uint32_t& reg(std::uint32_t offset) { return registers_[offset / 4]; }
   std::uint32_t reg(std::uint32_t offset) const { return registers_[offset / 4]; }
-  void set_capabilities();
   int write_register(std::uint32_t offset, std::uint32_t word);
   void control(std::uint32_t word);
   void reset();

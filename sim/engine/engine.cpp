@@ -1,8 +1,7 @@
 #include "sim/engine/engine.h"
 
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_plan.h"
-#include "sim/engine/rounding.h"
+#include "sim/engine/overflow.h"
 #include "sim/engine/row_walk.h"
 
 namespace hopmesh::engine {
@@ -17,7 +16,7 @@ Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, con
                sweeps_to_follow(topology, options.followed)) {}
 
 std::string Engine::why_no_kernel() const {
-  return engine::why_no_kernel(plan_);
+  return why_generic(plan_);
 }
 
 std::pair<std::size_t, std::size_t> Engine::place(std::size_t neuron) const {
@@ -80,16 +79,16 @@ void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps) {
 }
 
 bool Engine::advance(const std::atomic<bool>& stop) {
-  Relaxed relaxed;
-  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, relaxed);
-  extremes_.merge(relaxed.extremes);
-  result_.largest_change = static_cast<std::uint32_t>(relaxed.largest_change);
-  result_.converged = relaxed.largest_change <= threshold_;
+  SweepResult swept;
+  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, swept);
+  extremes_.merge(swept.extremes);
+  result_.largest_change = static_cast<std::uint32_t>(swept.largest_change);
+  result_.converged = swept.largest_change <= threshold_;
   result_.cycles = cycles_.run(result_.sweeps);
   return result_.converged || result_.sweeps == max_sweeps_;
 }
 
-RunResult Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+spec::Relaxation Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
   static const std::atomic<bool> never{false};
   begin_run(threshold, max_sweeps);
   advance(never);

@@ -11,18 +11,10 @@ namespace hopmesh::engine {
 struct Options {
   std::size_t threads = 1;     ///< never changes a bit; useful_threads() knows how many help
   std::string kernel = "auto"; ///< or a name of kernel_names()
-  std::size_t followed = 0;    ///< sweeps that follow each other through the mesh; 0: as helps; 1: plain
+  std::size_t followed = 0; ///< sweeps that follow each other through the mesh; 0: as many as help; 1: none
 };
 
-/// A run from START taken to DONE.
-struct RunResult {
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-  std::uint32_t largest_change = 0; ///< of the last sweep, raw code of the state
-  std::uint64_t cycles = 0;
-};
-
-/// One array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
+/// An array, its memories and its way of relaxing. Neurons are numbered as in spec::Topology.
 class Engine {
  public:
   /// The array must have passed spec::validate for the topology. Throws std::invalid_argument for a kernel
@@ -48,12 +40,12 @@ class Engine {
   /// true when over. A run that was stopped goes on where it was.
   void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps);
   bool advance(const std::atomic<bool>& stop);
-  /// Both, without a stop.
-  RunResult run(std::uint32_t threshold, std::uint32_t max_sweeps);
-  const RunResult& result() const { return result_; }
+  /// begin_run and advance in one call, without a stop.
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  const spec::Relaxation& result() const { return result_; }
 
-  /// Of s and u, over all runs.
-  const Extremes& extremes() const { return extremes_; }
+  /// The widest swings of s and u over all runs.
+  const spec::Extremes& extremes() const { return extremes_; }
   const char* kernel() const { return core_->name(); }
   /// Why none of the fast kernels can have this array, for people; empty if they can.
   std::string why_no_kernel() const;
@@ -67,13 +59,13 @@ class Engine {
   const spec::Topology topology_;
   const spec::Phases phases_of_sweep_;
   const spec::CycleModel cycles_;
-  const Plan plan_;
+  const NeuronPlan plan_;
   const Layout layout_;
-  std::unique_ptr<Core> core_;
+  std::unique_ptr<SweepCore> core_;
   Sweeper sweeper_;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
-  RunResult result_;
-  Extremes extremes_;
+  spec::Relaxation result_;
+  spec::Extremes extremes_;
 };
 
 } // namespace hopmesh::engine

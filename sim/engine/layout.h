@@ -17,7 +17,7 @@ inline constexpr std::uint32_t no_cell = UINT32_MAX;
 /// that no link reaches beyond the next chunk: what allows several sweeps to follow each other through the
 /// mesh. Within a group of a chunk cells lie by number, or by number of neighbours where that saves much.
 struct Layout {
-  /// `chunk_cells`: wanted length of a chunk; 0: one chunk. Longer if links ask for it.
+  /// `chunk_cells`: wanted length of a chunk, which long links make longer; 0: one chunk.
   Layout(const spec::Topology& topology, const spec::Phases& phases, spec::Schedule schedule,
          std::size_t chunk_cells = 0);
 
@@ -29,11 +29,12 @@ struct Layout {
   std::size_t groups = 0, chunks = 1;
   std::vector<std::uint32_t> slot_of_cell; ///< slot = block * block_lanes + lane
   std::vector<std::uint32_t> cell_of_slot; ///< or no_cell
-  std::vector<std::uint32_t> first_block;  ///< of chunk r, group g: [r * groups + g]; one more at the end
-  std::vector<std::uint32_t> degree;       ///< neighbours of a slot's cell
+  std::vector<std::uint32_t>
+      first_block; ///< of chunk r and group g: [r * groups + g]; the number of blocks at the end
+  std::vector<std::uint32_t> degree; ///< neighbours of a slot's cell
   /// Most neighbours of a cell of the block. Lanes with fewer have their own slot as source there.
   std::vector<std::uint32_t> neighbours;
-  std::vector<std::uint32_t> first_source; ///< of a block in `source`; one more at the end
+  std::vector<std::uint32_t> first_source; ///< of each block in `source`; the size of `source` at the end
   std::vector<std::uint32_t> source;       ///< slots: [neighbour][lane] of each block
 
   std::size_t blocks() const { return neighbours.size(); }

@@ -1,90 +1,72 @@
-// The engine's door for losing bits: SystemC's rounding and overflow modes on integers
-// (docs/hardware/datapath.md, Q). Each mode is a floor after the right thing was added; nothing here is
-// shared with another level.
+// The engine's one door for rounding: SystemC's seven modes on integers (docs/hardware/datapath.md, Q). Every
+// mode is a floor after the right thing was added, whether bits are shifted out (here) or a quotient is cut
+// (division.h). The kernels read this too, so it includes nothing but integers; kernel_body.h says why.
 #pragma once
 
-#include "rtl_model/spec/number_format.h"
+#include <cstdint>
+
+namespace hopmesh::spec {
+enum class Rounding : std::uint8_t;
+}
 
 namespace hopmesh::engine {
 
 __extension__ typedef __int128 Int128;
 
+/// What a mode adds to x before the floor, in parts of a unit of the result and in ones of the last place of
+/// x.
+struct RoundingRule {
+  bool half, unit_if_negative; ///< half a unit always; a unit more where x < 0
+  std::int64_t ones, ones_if_negative;
+  std::int64_t ones_if_odd; ///< where the floor of x is odd
+
+  // In ones, where half a unit of the result is `half_unit` of them.
+  template <typename Int> [[gnu::always_inline]] Int add(Int half_unit) const {
+    return (half ? half_unit : 0) + ones;
+  }
+  template <typename Int> [[gnu::always_inline]] Int add_if_negative(Int half_unit) const {
+    return (unit_if_negative ? 2 * half_unit : 0) + ones_if_negative;
+  }
+};
+RoundingRule rounding_rule(spec::Rounding mode);
+
 template <typename Int> Int shifted_up(Int x, int places) {
   return x * (Int{1} << places);
 }
 
-/// x * 2^-places, rounded; exact for places <= 0.
-template <typename Int> Int round_shift(Int x, int places, spec::Rounding mode) {
-  if (places <= 0) return shifted_up(x, -places);
-  const Int unit = Int{1} << places, half = unit >> 1;
-  switch (mode) {
-  case spec::Rounding::trn:
-    return x >> places;
-  case spec::Rounding::trn_zero:
-    return (x + (x < 0 ? unit - 1 : 0)) >> places;
-  case spec::Rounding::rnd:
-    return (x + half) >> places;
-  case spec::Rounding::rnd_min_inf:
-    return (x + half - 1) >> places;
-  case spec::Rounding::rnd_zero:
-    return (x + half - (x > 0)) >> places;
-  case spec::Rounding::rnd_inf:
-    return (x + half - (x < 0)) >> places;
-  case spec::Rounding::rnd_conv:
-    return (x + half - 1 + ((x >> places) & 1)) >> places;
-  }
-  return x;
+/// A rule for one number of places: x * 2^-places rounded.
+template <typename Int> struct BasicShiftRounding {
+  Int add = 0, add_if_negative = 0, add_if_odd = 0;
+  int places = 0; ///< below zero: x moves up, and loses nothing
+  /// Is `add` all that is added?
+  bool plain() const { return add_if_negative == 0 && add_if_odd == 0; }
+};
+using ShiftRounding = BasicShiftRounding<std::int64_t>; ///< where all fits 63 bits
+using WideShiftRounding = BasicShiftRounding<Int128>;
+
+template <typename Int = std::int64_t>
+BasicShiftRounding<Int> shift_rounding(int places, const RoundingRule& rule) {
+  if (places <= 0) return {0, 0, 0, places};
+  const Int half_unit = Int{1} << (places - 1);
+  return {rule.add(half_unit), rule.add_if_negative(half_unit), rule.ones_if_odd, places};
+}
+template <typename Int = std::int64_t>
+BasicShiftRounding<Int> shift_rounding(int places, spec::Rounding mode) {
+  return shift_rounding<Int>(places, rounding_rule(mode));
 }
 
-/// floor(x / d), d > 0.
-template <typename Int> Int floor_quotient(Int x, Int d) {
-  const Int q = x / d;
-  return q - (q * d > x);
+/// x * 2^-places rounded, places >= 0. `X` is std::int64_t or a vector of it. The function is forced into its
+/// caller: left outside, it would be compiled for the plainest processor only.
+template <typename X> [[gnu::always_inline]] inline X rounded(X x, const ShiftRounding& r) {
+  return (x + r.add + ((x >> 63) & r.add_if_negative) + ((x >> r.places) & r.add_if_odd)) >> r.places;
 }
-
-/// x / d rounded, d > 0; 2 |x| + d must fit.
-template <typename Int> Int round_quotient(Int x, Int d, spec::Rounding mode) {
-  const bool negative = x < 0;
-  const Int size = negative ? -x : x;
-  Int q = 0;
-  switch (mode) {
-  case spec::Rounding::trn:
-    return floor_quotient(x, d);
-  case spec::Rounding::trn_zero:
-    q = size / d;
-    break;
-  case spec::Rounding::rnd:
-    return floor_quotient<Int>(2 * x + d, 2 * d);
-  case spec::Rounding::rnd_min_inf:
-    return -floor_quotient<Int>(d - 2 * x, 2 * d);
-  case spec::Rounding::rnd_zero:
-    q = -floor_quotient<Int>(d - 2 * size, 2 * d);
-    break;
-  case spec::Rounding::rnd_inf:
-    q = (2 * size + d) / (2 * d);
-    break;
-  case spec::Rounding::rnd_conv:
-    q = (2 * size + d) / (2 * d);
-    q -= (q & 1) && q * 2 * d == 2 * size + d; // a tie went up to an odd number
-    break;
-  }
-  return negative ? -q : q;
-}
-
-/// A code brought into the format's range.
-template <typename Int> std::int64_t limit_to_format(Int code, const spec::NumberFormat& f) {
-  const Int high = f.max_raw(), low = f.min_raw();
-  if (low <= code && code <= high) return static_cast<std::int64_t>(code);
-  if (f.overflow == spec::Overflow::sat_zero) return 0;
-  if (f.overflow != spec::Overflow::wrap) return static_cast<std::int64_t>(code > high ? high : low);
-  const std::uint64_t sign = std::uint64_t{1} << (f.width - 1), kept = std::uint64_t(code) & (2 * sign - 1);
-  return static_cast<std::int64_t>(kept ^ sign) - static_cast<std::int64_t>(sign);
-}
-
-/// The low bits that a memory of this format keeps of a bus word, sign extended.
-inline std::int32_t kept_bits(std::uint32_t word, const spec::NumberFormat& f) {
-  const std::uint32_t sign = std::uint32_t{1} << (f.width - 1), mask = 2 * (sign - 1) + 1;
-  return static_cast<std::int32_t>(((word & mask) ^ sign) - sign);
+/// x * 2^-places rounded, for any number of places. Branches, since in 128 bits every addition costs.
+inline Int128 rounded(Int128 x, const WideShiftRounding& r) {
+  if (r.places <= 0) return shifted_up(x, -r.places);
+  Int128 sum = x + r.add;
+  if (r.add_if_negative) sum += (x >> 127) & r.add_if_negative;
+  if (r.add_if_odd) sum += (x >> r.places) & 1;
+  return sum >> r.places;
 }
 
 } // namespace hopmesh::engine

@@ -31,7 +31,7 @@ std::vector<std::size_t> lags(const Layout& layout, std::size_t sweeps, bool tea
 
 } // namespace
 
-Sweeper::Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
+Sweeper::Sweeper(SweepCore& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
                  std::size_t followed)
     : core_(core), layout_(layout),
       followed_(layout.chunks > 1 && schedule != spec::Schedule::synchronous ? followed : 1), team_(threads) {
@@ -46,36 +46,36 @@ void Sweeper::prepare() {
   core_.begin_run();
 }
 
-// A whole sweep in one go where nobody shares it.
-void Sweeper::fire_sweep(std::size_t member, Swept& swept) {
-  if (team_.size() == 1 && layout_.chunks == 1) return core_.fire(0, layout_.blocks(), swept);
+// A member that is alone fires a whole sweep in one call.
+void Sweeper::fire_sweep(std::size_t member, SweepRecord& record) {
+  if (team_.size() == 1 && layout_.chunks == 1) return core_.fire(0, layout_.blocks(), record);
   for (std::size_t g = 0; g < layout_.groups; ++g) {
-    fire_group(g, member, swept);
+    fire_group(g, member, record);
     team_.barrier();
   }
 }
 
-// One chunk: the group's blocks are shared out. Several: each member keeps to its own chunks.
-void Sweeper::fire_group(std::size_t group, std::size_t member, Swept& swept) {
+// In a layout of one chunk, members share the blocks of the group; else each member keeps to its own chunks.
+void Sweeper::fire_group(std::size_t group, std::size_t member, SweepRecord& record) {
   const bool whole = layout_.chunks > 1;
   const Range chunks = whole ? part(0, layout_.chunks, member, team_.size()) : Range{0, layout_.chunks};
   for (std::size_t r = chunks.first; r < chunks.last; ++r) {
     const std::size_t at = r * layout_.groups + group;
     const Range all{layout_.first_block[at], layout_.first_block[at + 1]};
     const Range mine = whole ? all : part(all.first, all.last, member, team_.size());
-    core_.fire(mine.first, mine.last, swept);
+    core_.fire(mine.first, mine.last, record);
   }
 }
 
 std::uint32_t Sweeper::relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                             Relaxed& relaxed) {
-  return followed_ > 1 ? relax_following(threshold, limit, stop, relaxed)
-                       : relax_plainly(threshold, limit, stop, relaxed);
+                             SweepResult& result) {
+  return followed_ > 1 ? relax_following(threshold, limit, stop, result)
+                       : relax_plainly(threshold, limit, stop, result);
 }
 
 std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limit,
-                                     const std::atomic<bool>& stop, Relaxed& relaxed) {
-  std::vector<Swept> own(team_.size());
+                                     const std::atomic<bool>& stop, SweepResult& result) {
+  std::vector<SweepRecord> own(team_.size());
   std::uint32_t done = 0;
   bool over = false;
   team_.run([&](std::size_t member) {
@@ -84,22 +84,23 @@ std::uint32_t Sweeper::relax_plainly(std::uint32_t threshold, std::uint32_t limi
       fire_sweep(member, own[member]);
       if (member == 0) {
         core_.end_sweep();
-        relaxed.largest_change = 0;
-        for (const Swept& o : own)
-          relaxed.largest_change = std::max(relaxed.largest_change, o.largest_change());
+        result.largest_change = 0;
+        for (const SweepRecord& o : own)
+          result.largest_change = std::max(result.largest_change, o.largest_change());
         done += 1;
-        over = relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed);
+        over = result.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed);
       }
       team_.barrier();
     }
   });
-  for (const Swept& o : own) relaxed.extremes.merge(o.all_extremes());
+  for (const SweepRecord& o : own) result.extremes.merge(o.all_extremes());
   return done;
 }
 
-// In wave w, stage k works on chunk w - lag[k]; alone, a member takes the stages of a wave one after the
-// other. Earlier stages than those `lags` asks about are further ahead still.
-void Sweeper::follow(std::size_t sweeps, std::size_t member, std::vector<Swept>& swept) {
+// In wave w, stage k works on chunk w - lag[k]. The members share the stages of a wave; each takes its own
+// one after the other. `lags` compares a stage with the last few before it: those before them are further
+// ahead still.
+void Sweeper::follow(std::size_t sweeps, std::size_t member, std::vector<SweepRecord>& records) {
   const std::size_t stages = sweeps * layout_.groups, waves = layout_.chunks + lag_[stages - 1];
   std::size_t first = 0, last = 0;
   for (std::size_t wave = 0; wave < waves; ++wave) {
@@ -108,44 +109,45 @@ void Sweeper::follow(std::size_t sweeps, std::size_t member, std::vector<Swept>&
     const Range mine = part(first, last, member, team_.size());
     for (std::size_t k = mine.first; k < mine.last; ++k) {
       const std::size_t at = (wave - lag_[k]) * layout_.groups + k % layout_.groups;
-      core_.fire(layout_.first_block[at], layout_.first_block[at + 1], swept[k / layout_.groups]);
+      core_.fire(layout_.first_block[at], layout_.first_block[at + 1], records[k / layout_.groups]);
     }
     team_.barrier();
   }
 }
 
-std::vector<Relaxed> Sweeper::follow(std::size_t sweeps) {
-  std::vector<std::vector<Swept>> own(team_.size(), std::vector<Swept>(sweeps));
+std::vector<SweepResult> Sweeper::follow(std::size_t sweeps) {
+  std::vector<std::vector<SweepRecord>> own(team_.size(), std::vector<SweepRecord>(sweeps));
   team_.run([&](std::size_t member) { follow(sweeps, member, own[member]); });
-  std::vector<Relaxed> each(sweeps);
-  for (const auto& swept : own)
+  std::vector<SweepResult> each(sweeps);
+  for (const auto& records : own)
     for (std::size_t k = 0; k < sweeps; ++k) {
-      each[k].largest_change = std::max(each[k].largest_change, swept[k].largest_change());
-      each[k].extremes.merge(swept[k].all_extremes());
+      each[k].largest_change = std::max(each[k].largest_change, records[k].largest_change());
+      each[k].extremes.merge(records[k].all_extremes());
     }
   return each;
 }
 
-// The sweep that ends the run is known only when all that follow it have begun: then back, and exactly so
-// far. Runs of a motion are much alike: the last one's length says where to look up.
+// Which sweep ends the run is known only when others that follow it have begun. Then the outputs go back to
+// where these sweeps started, and exactly as many sweeps as needed are done again. The runs of a motion are
+// much alike, so the length of the last run says after how many sweeps to look up.
 std::uint32_t Sweeper::relax_following(std::uint32_t threshold, std::uint32_t limit,
-                                       const std::atomic<bool>& stop, Relaxed& relaxed) {
+                                       const std::atomic<bool>& stop, SweepResult& result) {
   std::uint32_t done = 0;
   while (true) {
     const std::uint32_t left = std::min(limit, expected_ > done ? expected_ : limit) - done;
     const std::size_t count = std::min<std::size_t>(followed_, left);
     core_.keep_outputs();
-    std::vector<Relaxed> each = follow(count);
+    std::vector<SweepResult> each = follow(count);
     std::size_t needed = 1;
     while (needed < count && each[needed - 1].largest_change > threshold) ++needed;
     if (needed < count) {
       core_.restore_outputs();
       each = follow(needed);
     }
-    for (const Relaxed& sweep : each) relaxed.extremes.merge(sweep.extremes);
-    relaxed.largest_change = each.back().largest_change;
+    for (const SweepResult& sweep : each) result.extremes.merge(sweep.extremes);
+    result.largest_change = each.back().largest_change;
     done += static_cast<std::uint32_t>(needed);
-    if (relaxed.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
+    if (result.largest_change <= threshold || done == limit || stop.load(std::memory_order_relaxed))
       return expected_ = done;
   }
 }

@@ -2,48 +2,47 @@
 // other through the mesh, so that a network larger than a cache is read once for all of them.
 #pragma once
 
-#include "sim/engine/core.h"
+#include "sim/engine/sweep_core.h"
 #include "sim/engine/team.h"
 
 namespace hopmesh::engine {
 
-/// What sweeps come to: the last one's largest |Delta V|, and the swings of all of them.
-struct Relaxed {
+/// What sweeps come to: the largest |Delta V| of the last one, and the extremes of all.
+struct SweepResult {
   std::int64_t largest_change = 0;
-  Extremes extremes;
+  spec::Extremes extremes;
 };
 
 class Sweeper {
  public:
-  /// `followed`: sweeps that follow each other; needs a layout of several chunks and no synchronous schedule,
-  /// and is 1 otherwise.
-  Sweeper(Core& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
+  /// `followed`: sweeps that follow each other. Taken as 1 in synchronous arrays and in layouts of one chunk.
+  Sweeper(SweepCore& core, const Layout& layout, spec::Schedule schedule, std::size_t threads,
           std::size_t followed);
 
   std::size_t threads() const { return team_.size(); }
 
   void prepare();
   /// Sweeps until one changes no output by more than `threshold`, or `limit` sweeps are done, or `stop`.
-  /// Returns how many were done; what they came to stands in `relaxed`.
+  /// Returns how many were done; what they came to stands in `result`.
   std::uint32_t relax(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                      Relaxed& relaxed);
+                      SweepResult& result);
 
  private:
   std::uint32_t relax_plainly(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                              Relaxed& relaxed);
+                              SweepResult& result);
   std::uint32_t relax_following(std::uint32_t threshold, std::uint32_t limit, const std::atomic<bool>& stop,
-                                Relaxed& relaxed);
-  void fire_sweep(std::size_t member, Swept& swept);
-  void fire_group(std::size_t group, std::size_t member, Swept& swept);
-  std::vector<Relaxed> follow(std::size_t sweeps);
-  void follow(std::size_t sweeps, std::size_t member, std::vector<Swept>& swept);
+                                SweepResult& result);
+  void fire_sweep(std::size_t member, SweepRecord& record);
+  void fire_group(std::size_t group, std::size_t member, SweepRecord& record);
+  std::vector<SweepResult> follow(std::size_t sweeps);
+  void follow(std::size_t sweeps, std::size_t member, std::vector<SweepRecord>& records);
 
-  Core& core_;
+  SweepCore& core_;
   const Layout& layout_;
   std::size_t followed_;
   std::uint32_t expected_ = 0; ///< sweeps of the last run; 0: none
   Team team_;
-  std::vector<std::size_t> lag_; ///< of each stage of `followed_` sweeps, in chunks
+  std::vector<std::size_t> lag_; ///< in chunks, of each stage of `followed_` sweeps (lags)
 };
 
 } // namespace hopmesh::engine

@@ -22,7 +22,7 @@ class Team {
   std::size_t size() const { return threads_.size() + 1; }
   /// Every member does work(member); returns when all have.
   void run(const std::function<void(std::size_t)>& work);
-  /// Inside `work`: nobody goes on before everybody is here.
+  /// Called inside `work`: no member goes on before all members are here.
   void barrier();
 
  private:

@@ -33,7 +33,8 @@ CsvWriter& CsvWriter::raw(std::string_view text) {
 }
 
 CsvWriter& CsvWriter::cell(double value) {
-  return raw(shortest(value));
+  char digits[32]; // the longest takes 24
+  return raw({digits, static_cast<std::size_t>(fmt::format_to(digits, "{}", value) - digits)});
 }
 
 CsvWriter& CsvWriter::cell(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -18,13 +19,15 @@ namespace hopmesh::files {
 class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header);
-  /// Goes on behind the rows that are there.
+  /// Goes on with the file of a stopped run, behind its rows.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, StreamRest rest)
       : file_(path, std::move(rest)), columns_(header.size()) {}
 
   CsvWriter& cell(double value);
   CsvWriter& cell(std::string_view text);
   CsvWriter& cell(const char* text) { return cell(std::string_view(text)); }
+  /// Empty where there is no value.
+  CsvWriter& cell(const std::optional<double>& value) { return value ? cell(*value) : cell(""); }
   CsvWriter& cell(bool value) { return raw(value ? "1" : "0"); }
   template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
   CsvWriter& cell(Integer value) {

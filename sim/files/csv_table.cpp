@@ -1,6 +1,7 @@
 #include "sim/files/csv_table.h"
 
-#include <charconv>
+#include "sim/input/number.h"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -11,7 +12,7 @@ namespace hopmesh::files {
 
 namespace {
 
-/// One cell, from `at` on; leaves `at` behind its comma or on its line's end.
+/// A cell, from `at` on; leaves `at` behind its comma or on its line's end.
 std::string take_cell(std::string_view text, std::size_t& at) {
   std::string cell;
   bool quoted = at < text.size() && text[at] == '"';
@@ -55,11 +56,8 @@ const std::string& CsvTable::text(std::size_t row, std::string_view name) const 
 }
 
 std::optional<double> CsvTable::number(std::size_t row, std::string_view name) const {
-  const std::string& cell = text(row, name);
   double value = 0;
-  const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (cell.empty() || failure != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value))
-    return std::nullopt;
+  if (!input::parse_number(text(row, name), value) || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 

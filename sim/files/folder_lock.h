@@ -1,4 +1,4 @@
-// One writer a folder: whoever holds it may read what a killed run left there and go on with it.
+// A folder has one writer: whoever holds it may read what a killed run left there and go on with it.
 #pragma once
 
 #include <filesystem>

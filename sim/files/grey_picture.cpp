@@ -1,6 +1,8 @@
 #include "sim/files/grey_picture.h"
 
-#include <charconv>
+#include "sim/input/number.h"
+
+#include <algorithm>
 #include <png.h>
 #include <string>
 
@@ -16,15 +18,16 @@ class Numbers {
 
   std::uint32_t next(const char* name) {
     skip();
-    std::uint32_t value = 0;
-    const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (failure != std::errc()) throw NoPicture("a PGM picture without " + std::string(name));
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return value;
+    const std::string_view digits = rest_.substr(0, rest_.find_first_of(" \t\r\n#"));
+    std::uint64_t value = 0;
+    if (!input::parse_number(digits, value) || value > UINT32_MAX)
+      throw NoPicture("a PGM picture without " + std::string(name));
+    rest_.remove_prefix(digits.size());
+    return static_cast<std::uint32_t>(value);
   }
 
-  /// What stands behind one more blank.
-  std::string_view rest() const { return rest_.substr(rest_.empty() ? 0 : 1); }
+  /// The pixels of a picture in bytes: one blank parts them from the header.
+  std::string_view bytes() const { return rest_.substr(rest_.empty() ? 0 : 1); }
 
  private:
   void skip() {
@@ -54,7 +57,7 @@ GreyPicture read_pgm(std::string_view bytes) {
   check_size(picture.width, picture.height);
   if (white < 1 || white > 65535) throw NoPicture("a PGM picture whose white is " + std::to_string(white));
   const std::size_t count = std::size_t{picture.width} * picture.height, wide = white > 255 ? 2 : 1;
-  const std::string_view raw = plain ? "" : numbers.rest();
+  const std::string_view raw = plain ? "" : numbers.bytes();
   if (!plain && raw.size() < count * wide) throw NoPicture("a PGM picture that ends early");
   for (std::size_t k = 0; k < count; ++k) {
     const auto byte = [&](std::size_t at) { return std::uint32_t{static_cast<unsigned char>(raw[at])}; };

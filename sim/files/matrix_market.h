@@ -29,7 +29,7 @@ struct SparseMatrix {
 /// `symmetric`; both halves of a symmetric one are given. Zeros of an `array` are no entries. Throws
 /// input::InputError for everything else, with the line, and for values that are not finite.
 SparseMatrix read_matrix(const std::string& path);
-/// The same of one column, as a dense vector.
+/// A matrix of one column, as a dense vector.
 std::vector<double> read_vector(const std::string& path);
 
 } // namespace hopmesh::files

@@ -1,12 +1,14 @@
 // Reads Matrix Market files in one walk over their lines: banner, comments, sizes, entries. Whatever is not
 // as the format says is refused with its line.
 #include "sim/files/matrix_market.h"
+
 #include "sim/input/input_error.h"
+#include "sim/input/line_reader.h"
+#include "sim/input/number.h"
 #include "sim/input/whole_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
@@ -15,17 +17,10 @@ namespace hopmesh::files {
 
 namespace {
 
+using input::Words;
+
 constexpr std::size_t most_bytes = std::size_t{1} << 32;
 constexpr std::size_t most_rows = std::size_t{1} << 31;
-
-std::string_view next_word(std::string_view& rest) {
-  const auto first = rest.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return rest = {};
-  rest.remove_prefix(first);
-  const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r"));
-  rest.remove_prefix(word.size());
-  return word;
-}
 
 std::string lower(std::string_view word) {
   std::string text(word);
@@ -36,7 +31,7 @@ std::string lower(std::string_view word) {
 class MarketReader {
  public:
   explicit MarketReader(const std::string& path)
-      : path_(path), text_(input::read_whole_file(path, "a Matrix Market file", most_bytes)), rest_(text_) {}
+      : path_(path), text_(input::read_whole_file(path, "a Matrix Market file", most_bytes)), lines_(text_) {}
 
   SparseMatrix read() {
     read_banner();
@@ -45,87 +40,78 @@ class MarketReader {
       read_columns();
     else
       read_entries();
-    std::string_view line;
-    if (next_line(line)) fail(input::in_quotes(line), fmt::format("the end, after {} entries", count_));
+    if (next_line()) fail(input::in_quotes(lines_.line()), fmt::format("the end, after {} entries", count_));
     sort_entries();
     return std::move(matrix_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-    throw input::input_error(path_, line_, "", found, expected);
+    throw input::input_error(path_, lines_.number(), "", found, expected);
   }
 
-  /// The next line that is neither blank nor a comment; false at the end of the file.
-  bool next_line(std::string_view& line) {
-    while (!rest_.empty()) {
-      ++line_;
-      line = rest_.substr(0, rest_.find('\n'));
-      rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
-      const auto first = line.find_first_not_of(" \t\r");
-      if (first != std::string_view::npos && line[first] != '%') return true;
+  /// Goes to the next line that is neither blank nor a comment; false at the end of the file.
+  bool next_line() {
+    while (lines_.next()) {
+      const std::string_view word = Words(lines_.line()).next();
+      if (!word.empty() && word[0] != '%') return true;
     }
     return false;
   }
 
-  std::string choice(std::string_view& line, const std::vector<std::string>& names) const {
-    const std::string_view word = next_word(line);
+  std::string choice(Words& words, const std::vector<std::string>& names) const {
+    const std::string_view word = words.next();
     std::string name = lower(word);
     if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-    throw input::input_error(path_, line_, "", word.empty() ? "the banner's end" : input::in_quotes(word),
+    throw input::input_error(path_, lines_.number(), "",
+                             word.empty() ? "the banner's end" : input::in_quotes(word),
                              fmt::format("{}", fmt::join(names, ", ")), input::nearest_name(name, names));
   }
 
   void read_banner() {
-    line_ = 1;
-    std::string_view line = rest_.substr(0, rest_.find('\n'));
-    rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
-    const std::string_view all = line;
-    if (lower(next_word(line)) != "%%matrixmarket")
-      fail(input::in_quotes(all), "%%MatrixMarket matrix coordinate real general, or the like");
-    choice(line, {"matrix"});
-    dense_ = choice(line, {"coordinate", "array"}) == "array";
+    lines_.next();
+    Words words(lines_.line());
+    if (lower(words.next()) != "%%matrixmarket")
+      fail(input::in_quotes(lines_.line()), "%%MatrixMarket matrix coordinate real general, or the like");
+    choice(words, {"matrix"});
+    dense_ = choice(words, {"coordinate", "array"}) == "array";
     const std::string field =
-        dense_ ? choice(line, {"real", "integer"}) : choice(line, {"real", "integer", "pattern"});
+        dense_ ? choice(words, {"real", "integer"}) : choice(words, {"real", "integer", "pattern"});
     pattern_ = field == "pattern";
-    symmetric_ = choice(line, {"general", "symmetric"}) == "symmetric";
-    expect_end(line);
+    symmetric_ = choice(words, {"general", "symmetric"}) == "symmetric";
+    expect_end(words);
   }
 
-  void expect_end(std::string_view line) const {
-    const std::string_view word = next_word(line);
+  void expect_end(Words& words) const {
+    const std::string_view word = words.next();
     if (!word.empty()) fail(input::in_quotes(word), "the end of the line");
   }
 
-  std::size_t whole(std::string_view& line, std::size_t least, std::size_t most, const char* name) const {
-    const std::string_view word = next_word(line);
+  std::size_t whole(Words& words, std::size_t least, std::size_t most, const char* name) const {
+    const std::string_view word = words.next();
     std::size_t n = 0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), n);
-    if (failure != std::errc() || end != word.data() + word.size() || n < least || n > most)
+    if (!input::parse_number(word, n) || n < least || n > most)
       fail(word.empty() ? "the end of the line" : input::in_quotes(word),
            fmt::format("{}, an integer from {} to {}", name, least, most));
     return n;
   }
 
-  double real(std::string_view& line) const {
-    const std::string_view word = next_word(line);
-    std::string_view digits = word;
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double real(Words& words) const {
+    const std::string_view word = words.next();
     double x = 0;
-    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-    if (failure != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x))
+    if (!input::parse_number(word, x) || !std::isfinite(x))
       fail(word.empty() ? "the end of the line" : input::in_quotes(word), "a finite number");
     return x;
   }
 
   void read_sizes() {
-    std::string_view line;
-    if (!next_line(line)) fail("the end of the file", "a line with the sizes");
-    matrix_.rows = whole(line, 1, most_rows, "the number of rows");
-    matrix_.columns = whole(line, 1, most_rows, "the number of columns");
+    if (!next_line()) fail("the end of the file", "a line with the sizes");
+    Words words(lines_.line());
+    matrix_.rows = whole(words, 1, most_rows, "the number of rows");
+    matrix_.columns = whole(words, 1, most_rows, "the number of columns");
     const std::size_t places = matrix_.rows * matrix_.columns;
-    count_ = dense_ ? places : whole(line, 0, places, "the number of entries");
-    expect_end(line);
+    count_ = dense_ ? places : whole(words, 0, places, "the number of entries");
+    expect_end(words);
     if (symmetric_ && matrix_.rows != matrix_.columns)
       fail(fmt::format("{} x {}, symmetric", matrix_.rows, matrix_.columns),
            "as many rows as columns, or general");
@@ -133,9 +119,8 @@ class MarketReader {
     matrix_.entries.reserve(std::min(count_, text_.size() / 2) * (symmetric_ ? 2 : 1));
   }
 
-  std::string_view entry_line(std::size_t done) {
-    std::string_view line;
-    if (next_line(line)) return line;
+  Words entry(std::size_t done) {
+    if (next_line()) return Words(lines_.line());
     fail(fmt::format("the end of the file after {} entries", done), fmt::format("{} entries", count_));
   }
 
@@ -146,14 +131,14 @@ class MarketReader {
 
   void read_entries() {
     for (std::size_t k = 0; k < count_; ++k) {
-      std::string_view line = entry_line(k);
-      const std::size_t row = whole(line, 1, matrix_.rows, "a row");
-      const std::size_t column = whole(line, 1, matrix_.columns, "a column");
+      Words words = entry(k);
+      const std::size_t row = whole(words, 1, matrix_.rows, "a row");
+      const std::size_t column = whole(words, 1, matrix_.columns, "a column");
       if (symmetric_ && column > row)
         fail(fmt::format("row {}, column {}", row, column),
              "the lower half alone, as a symmetric file has it");
-      add(row - 1, column - 1, pattern_ ? 1 : real(line));
-      expect_end(line);
+      add(row - 1, column - 1, pattern_ ? 1 : real(words));
+      expect_end(words);
     }
   }
 
@@ -162,9 +147,9 @@ class MarketReader {
     std::size_t done = 0;
     for (std::size_t column = 0; column < matrix_.columns; ++column)
       for (std::size_t row = symmetric_ ? column : 0; row < matrix_.rows; ++row, ++done) {
-        std::string_view line = entry_line(done);
-        const double value = real(line);
-        expect_end(line);
+        Words words = entry(done);
+        const double value = real(words);
+        expect_end(words);
         if (value != 0) add(row, column, value);
       }
   }
@@ -186,8 +171,7 @@ class MarketReader {
   }
 
   const std::string path_, text_;
-  std::string_view rest_;
-  int line_ = 0;
+  input::LineReader lines_;
   bool dense_ = false, pattern_ = false, symmetric_ = false;
   std::size_t count_ = 0;
   SparseMatrix matrix_;

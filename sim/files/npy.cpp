@@ -1,10 +1,14 @@
 // Version 1.0 of the format: magic, header length, a Python dictionary padded with spaces, then the values.
 #include "sim/files/npy.h"
 
+#include "sim/input/line_reader.h"
+#include "sim/input/number.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -39,13 +43,15 @@ std::string value_of(const std::string& dictionary, const char* key) {
   return begin == std::string::npos ? std::string{} : dictionary.substr(begin);
 }
 
-std::vector<std::size_t> parse_shape(const std::string& text) {
+/// "(3, 4)" or "(5,)"; none where that is no list of sizes.
+std::optional<std::vector<std::size_t>> parse_shape(const std::string& text) {
   std::vector<std::size_t> shape;
-  for (std::size_t at = 1; at < text.size() && text[at] != ')';) {
-    const auto end = std::min(text.find_first_of(",)", at), text.size());
-    const std::string number = text.substr(at, end - at);
-    if (number.find_first_of("0123456789") != std::string::npos) shape.push_back(std::stoull(number));
-    at = end < text.size() && text[end] == ',' ? end + 1 : end;
+  const std::size_t end = text.find(')');
+  if (text.empty() || text[0] != '(' || end == std::string::npos) return std::nullopt;
+  for (std::size_t at = 1, comma; at < end; at = comma + 1) {
+    comma = std::min(text.find(',', at), end);
+    const std::string_view size = input::Words(std::string_view(text).substr(at, comma - at)).next();
+    if (!size.empty() && !input::parse_number(size, shape.emplace_back())) return std::nullopt;
   }
   return shape;
 }
@@ -108,7 +114,9 @@ NpyReader<T>::NpyReader(const std::filesystem::path& path) : path_(path), file_(
   if (type != fmt::format("'{}'", descriptor<T>()))
     refuse(fmt::format("values of type {}, expected '{}'", type, descriptor<T>()));
   if (value_of(dictionary, "'fortran_order'").rfind("False", 0) != 0) refuse("Fortran order is not read");
-  shape_ = parse_shape(value_of(dictionary, "'shape'"));
+  const auto shape = parse_shape(value_of(dictionary, "'shape'"));
+  if (!shape) refuse("a shape that is no list of sizes");
+  shape_ = *shape;
   for (std::size_t d = 1; d < shape_.size(); ++d) row_size_ *= shape_[d];
   data_offset_ = prefix_bytes + length;
   if (std::filesystem::file_size(path) < data_offset_ + rows() * row_size_ * sizeof(T))

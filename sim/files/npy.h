@@ -20,9 +20,9 @@ namespace hopmesh::files {
 template <class T> class NpyWriter {
  public:
   NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape);
-  /// Goes on behind the rows that are there.
+  /// Goes on with the file of a stopped run, behind its rows.
   NpyWriter(const std::filesystem::path& path, const std::vector<std::size_t>& row_shape, StreamRest rest);
-  /// What a file of such rows begins with while it is written.
+  /// The first bytes of a file of such rows until commit() fills in their number.
   static std::string head(const std::vector<std::size_t>& row_shape);
   void append(const T* row); ///< one row
   void append(const std::vector<T>& row);

@@ -1,4 +1,4 @@
-// One sentence per mistake, always one printable line, whatever bytes the mistake was made of.
+// A sentence per mistake, always one printable line, whatever bytes the mistake was made of.
 #include "sim/input/input_error.h"
 
 #include <algorithm>

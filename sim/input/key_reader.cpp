@@ -1,4 +1,4 @@
-// One function per kind of value; each knows how to say what it expected.
+// A function per kind of value; each knows how to say what it expected.
 #include "sim/input/key_reader.h"
 
 #include <algorithm>

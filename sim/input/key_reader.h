@@ -37,7 +37,7 @@ class KeyReader {
   bool text(const std::string& key, std::string& target, const std::string& expected);
   bool flag(const std::string& key, bool& target);
   bool vector(const std::string& key, std::array<double, 3>& target);
-  /// One of a few names.
+  /// Any of a few names.
   bool choice(const std::string& key, std::string& target, const std::vector<std::string>& names);
 
   /// The number in a value that may be written as an integer.

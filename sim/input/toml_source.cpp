@@ -77,7 +77,7 @@ void refuse_dots(const std::string& text, const std::string& file) {
     if (c == '\n') ++line, dots = 0;
     if (c == '.' && ++dots > most_dots)
       throw input_error(file, line, "", fmt::format("more than {} dots in a line", most_dots),
-                        "TOML for people");
+                        "at most that many");
   }
 }
 

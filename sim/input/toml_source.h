@@ -13,7 +13,7 @@ namespace hopmesh::input {
 struct TomlTable {}; ///< its keys are entries of their own
 struct TomlDate {};  ///< nothing here is a date; kept to be able to say so
 
-/// One value; line 0 means that an override set it.
+/// A value; line 0 means that an override set it.
 struct TomlValue {
   std::variant<TomlTable, TomlDate, std::string, std::int64_t, double, bool, std::vector<TomlValue>> data;
   int line = 0;
@@ -30,10 +30,10 @@ class TomlSource {
   TomlSource() = default;
   /// `kind` says in messages what the file should have been.
   static TomlSource read(const std::string& path, const std::string& kind);
-  /// The same from text that stands in the file `path`.
+  /// From a text that stands in the file `path`.
   static TomlSource of_text(const std::string& text, const std::string& path);
 
-  /// One override: the value is TOML, or a bare string where it is no TOML.
+  /// An override: the value is TOML, or a bare string where it is no TOML.
   void set(const std::string& key, const std::string& text);
   /// Forgets a key and everything under it.
   void erase(const std::string& key);

@@ -11,24 +11,21 @@ namespace hopmesh::levels {
 
 namespace {
 
-int rule_named(const std::string& name) {
-  if (name == "static") return HM_STATIC;
-  return name == "bdf2" ? HM_BDF2 : HM_BACKWARD_EULER;
+const hm_formulation* formulation_named(const std::string& name) {
+  for (const hm_formulation* known : hm_formulations)
+    if (known->name == name) return known;
+  throw std::logic_error("no formulation " + name);
 }
 
 } // namespace
 
-hm_motion motion_of(const scene::Scene& scene) {
-  hm_motion m{};
+hm_step_parameters motion_of(const scene::Scene& scene) {
+  hm_step_parameters m{};
+  m.formulation = formulation_named(scene.formulation_name());
   m.time_step = scene.motion.time_step;
   m.friction = scene.motion.friction;
   m.mass = scene.mesh.mass;
   m.drag = scene.force.drag;
-  m.rule = HM_PROBE;
-  if (scene.motion.formulation == scene::Formulation::incremental)
-    m.rule = rule_named(scene.incremental.rule);
-  else
-    m.friction /= 1 + m.drag * m.time_step; // the probe's motion knows no other drag
   m.gamma = scene.probe.gamma;
   m.beta = scene.probe.beta;
   m.acceleration_memory = scene.probe.acceleration_memory;
@@ -45,7 +42,7 @@ hm_motion motion_of(const scene::Scene& scene) {
 ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                          ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port, array), motion_(motion_of(scene)),
-      memory_(mesh, motion_.rule == HM_BDF2), buffer_(4096) {
+      memory_(mesh, motion_.formulation->looks_back), buffer_(4096) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
 }
@@ -79,9 +76,9 @@ StepRow ArrayMotion::advance() {
   StepRow row;
   row.step = step;
   row.time = static_cast<double>(memory_.state.step) * motion_.time_step;
-  row.sweeps = result.sweeps;
-  row.cycles = result.cycles;
-  row.converged = result.converged;
+  row.sweeps = result.relaxation.sweeps;
+  row.cycles = result.relaxation.cycles;
+  row.converged = result.relaxation.converged;
   row.clipped = driver_.clipped;
   row.bus_cycles = bus_cycles() - bus_before;
   row.saturated = static_cast<std::uint64_t>(std::count_if(

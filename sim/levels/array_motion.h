@@ -1,6 +1,7 @@
 // The way of the data at fixed levels: firmware integrator, driver, bus, array, and back.
 #pragma once
 
+#include "firmware/driver.h"
 #include "sim/levels/bus_profile.h"
 #include "sim/levels/codes.h"
 #include "sim/levels/image_force.h"
@@ -39,7 +40,7 @@ class ArrayMotion : public Motion {
   BusProfile profile_;
   std::optional<ReferenceCheck> check_;
   std::optional<ImageForce> image_;
-  hm_motion motion_{};
+  hm_step_parameters motion_{};
   hm_driver driver_{};
   StepMemory memory_;
   std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
@@ -48,7 +49,7 @@ class ArrayMotion : public Motion {
   double judging_seconds_ = 0;
 };
 
-/// The firmware's motion parameters of a scene; force is gravity plus wind.
-hm_motion motion_of(const scene::Scene& scene);
+/// The firmware's parameters of a scene's steps; force is gravity plus wind.
+hm_step_parameters motion_of(const scene::Scene& scene);
 
 } // namespace hopmesh::levels

@@ -4,6 +4,7 @@
 
 #include "firmware/host_bus.h"
 #include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/spec/topology.h"
 
 #include <cstdint>
@@ -18,6 +19,14 @@ struct SignalRange {
   spec::NumberFormat format;
   std::int64_t least = 0, largest = 0;
 };
+
+/// Of s and u, which no bus shows.
+inline std::vector<SignalRange> inner_ranges(const spec::ArraySpec& array, const spec::Topology& topology,
+                                             const spec::Extremes& e) {
+  const spec::Formats built = spec::built_formats(array, topology.most_taps());
+  return {{"accumulator", built.accumulator, e.least_sum, e.largest_sum},
+          {"drive", built.drive, e.least_drive, e.largest_drive}};
+}
 
 class ArrayPort : public HostBus {
  public:

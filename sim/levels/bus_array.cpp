@@ -54,7 +54,7 @@ void BusArray::put_outputs(const Codes& codes) const {
   write_window(HM_WINDOW_OUTPUT, codes);
 }
 
-RunEnd BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps) const {
+spec::Relaxation BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps) const {
   write(HM_REG_THRESHOLD, threshold);
   write(HM_REG_MAX_SWEEPS, max_sweeps);
   write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);

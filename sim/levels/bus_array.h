@@ -2,22 +2,11 @@
 #pragma once
 
 #include "firmware/bus.h"
+#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/spec/topology.h"
 #include "sim/levels/codes.h"
 
 namespace hopmesh::levels {
-
-/// What the registers say after a run.
-struct RunEnd {
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-  std::uint32_t largest_change = 0;
-  std::uint64_t cycles = 0;
-  bool operator==(const RunEnd& o) const {
-    return sweeps == o.sweeps && converged == o.converged && largest_change == o.largest_change &&
-           cycles == o.cycles;
-  }
-};
 
 /// Bus and topology must outlive it. Everything throws as check() of bus_error.h does.
 class BusArray {
@@ -27,8 +16,8 @@ class BusArray {
   void load(const Codes& weights, const Codes& biases, const Codes& outputs) const;
   void put_outputs(const Codes& codes) const;
   /// From where V is, until at rest or `max_sweeps`.
-  RunEnd run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
-  RunEnd one_sweep() const { return run(0, 1); }
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
+  spec::Relaxation one_sweep() const { return run(0, 1); }
 
   Codes weights() const;
   Codes biases() const;

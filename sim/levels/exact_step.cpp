@@ -1,5 +1,7 @@
 #include "sim/levels/exact_step.h"
 
+#include <algorithm>
+
 namespace hopmesh::levels {
 
 namespace {
@@ -12,8 +14,13 @@ scene::Scene without_friction(scene::Scene scene) {
 
 } // namespace
 
+bool ExactStep::exists_for(const scene::Scene& scene) {
+  const auto& rivals = rivals::names();
+  return std::find(rivals.begin(), rivals.end(), scene.formulation_name()) != rivals.end();
+}
+
 ExactStep::ExactStep(const scene::Scene& scene, const BuiltMesh& mesh)
-    : rival_(scene.incremental.rule, without_friction(scene), mesh), friction_(scene.motion.friction) {}
+    : rival_(scene.formulation_name(), without_friction(scene), mesh), friction_(scene.motion.friction) {}
 
 StepRow ExactStep::advance() {
   StepRow row = rival_.advance();

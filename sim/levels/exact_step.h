@@ -8,7 +8,9 @@ namespace hopmesh::levels {
 
 class ExactStep : public Motion {
  public:
-  /// Of an incremental scene; the mesh must outlive it.
+  /// Where a rival bears the formulation's name.
+  static bool exists_for(const scene::Scene& scene);
+  /// The mesh must outlive it.
   ExactStep(const scene::Scene& scene, const BuiltMesh& mesh);
 
   StepRow advance() override;

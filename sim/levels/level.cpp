@@ -3,9 +3,9 @@
 #include "sim/engine/choose.h"
 #include "sim/input/input_error.h"
 #include "sim/levels/engine_port.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/reference_motion.h"
 #include "sim/levels/rival_motion.h"
-#include "sim/levels/stop.h"
 #include "sim/levels/systemc_port.h"
 
 #include <algorithm>

@@ -27,7 +27,7 @@ struct PortRequest {
   bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
 };
 
-/// One of the settings in which a level computes the same bits.
+/// A setting in which a level computes the same bits.
 struct Variant {
   std::string name = {}; ///< "" for the only one
   engine::Options engine = {};
@@ -47,7 +47,7 @@ struct Way {
 struct Level {
   std::string name;
   Kind kind = Kind::array;
-  std::string words = {}; ///< for people: what it is, in a phrase
+  std::string words{}; ///< for people: what it is, in a phrase
 
   /// Makes its array; empty where there is none.
   std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&, const PortRequest&)>

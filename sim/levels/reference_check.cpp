@@ -32,7 +32,7 @@ reference::State state_of(const StepState& state) {
 }
 
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
-                   reference::Output output) {
+                   spec::Output output) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
     return reference::relax(network, order, from, 0, sweeps, output).V;
   };
@@ -43,7 +43,7 @@ double alternation(const reference::Network& network, const reference::Order& or
 
 reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::Motion motion = reference::motion_of(scene);
-  if (array.output == spec::Output::binary) motion.output = reference::Output::binary;
+  motion.output = array.output;
   return motion;
 }
 
@@ -67,10 +67,10 @@ Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
 reference::Network ReferenceCheck::expanded(const std::vector<double>& start, double scale,
                                             Vector& V0) const {
   const scene::Mesh& mesh = mesh_.mesh();
-  const bool probe = motion_.rule == reference::Rule::probe;
-  V0 = probe && motion_.expansions == 1 ? reference::expansion_point(mesh, state_) : by_node(start);
-  if (probe) return reference::network(mesh, motion_, reference::predict(mesh, motion_, state_), V0);
-  return reference::network(mesh, reference::increment(mesh, motion_, state_), scale, V0);
+  const reference::Formulation& formulation = *motion_.formulation;
+  const bool known = !formulation.increment && motion_.expansions == 1;
+  V0 = known ? formulation.start(mesh, state_, scale) : by_node(start);
+  return formulation.network(mesh, motion_, state_, scale, V0);
 }
 
 ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
@@ -107,8 +107,7 @@ double ReferenceCheck::network_difference(const reference::Network& network, con
       const double* weight = built.weight + hm_row_offset(&m, c, p);
       for (std::uint32_t t = 0; t < hm_row_length(&m, c); ++t) {
         const std::uint32_t source = t < m.components ? c : m.link_to[m.first_link[c] + t / m.components - 1];
-        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components),
-                       weight[t]);
+        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components), weight[t]);
       }
     }
   return largest > 0 ? difference / largest : 0;

@@ -19,7 +19,7 @@ reference::State state_of(const StepState& state);
 /// that dies.
 inline constexpr std::uint32_t swings = 20; ///< even
 double alternation(const reference::Network& network, const reference::Order& order,
-                   const reference::Vector& V, reference::Output output = reference::Output::modified);
+                   const reference::Vector& V, spec::Output output = spec::Output::modified);
 
 class ReferenceCheck {
  public:
@@ -36,7 +36,7 @@ class ReferenceCheck {
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;
-  /// The same expansion by the reference, from its own prediction; `start` becomes its point.
+  /// That expansion by the reference, from its own prediction; `start` becomes its point.
   reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
   double network_difference(const reference::Network& network, const hm_network& built) const;
 

@@ -9,7 +9,7 @@ namespace hopmesh::levels {
 ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh,
                                  const spec::ArraySpec& array)
     : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
-      state_(reference::initial_state(mesh.mesh(), motion_.rule)),
+      state_(reference::initial_state(mesh.mesh(), *motion_.formulation)),
       position_(state_.position.data(), state_.position.data() + state_.position.size()) {
   if (scene.force.image) image_.emplace(scene);
 }

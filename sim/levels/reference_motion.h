@@ -16,6 +16,7 @@ class ReferenceMotion : public Motion {
   const std::vector<double>& positions() const override { return position_; }
   StepState state() const override;
   void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
+  const reference::Formulation& formulation() const { return *motion_.formulation; }
   /// The network of the last step; valid after advance().
   const reference::Step& last_step() const { return last_; }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/levels/motion.h"
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 
 namespace hopmesh::levels {
 

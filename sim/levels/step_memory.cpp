@@ -2,12 +2,12 @@
 
 namespace hopmesh::levels {
 
-StepMemory::StepMemory(const BuiltMesh& mesh, bool two_steps) {
+StepMemory::StepMemory(const BuiltMesh& mesh, bool looks_back) {
   now.position.reserve(3 * mesh.nodes());
   for (const auto& x : mesh.mesh().position) now.position.insert(now.position.end(), x.begin(), x.end());
   now.acceleration.assign(now.position.size(), 0.0);
   predicted = now.acceleration;
-  if (two_steps) now.previous_position = now.previous_velocity = now.acceleration;
+  if (looks_back) now.previous_position = now.previous_velocity = now.acceleration;
   now.velocity.reserve(now.position.size());
   for (std::size_t node = 0; node < mesh.nodes(); ++node) {
     const auto v = mesh.mesh().start_velocity(node);

@@ -9,8 +9,8 @@ namespace hopmesh::levels {
 
 /// A mesh at its start, and hm_state pointing into this object; it neither moves nor copies.
 struct StepMemory {
-  /// `two_steps`: the motion looks back two steps (BDF2).
-  explicit StepMemory(const BuiltMesh& mesh, bool two_steps = false);
+  /// `looks_back`: as the formulation does.
+  explicit StepMemory(const BuiltMesh& mesh, bool looks_back = false);
   StepMemory(const StepMemory&) = delete;
   StepMemory& operator=(const StepMemory&) = delete;
 

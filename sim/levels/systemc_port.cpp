@@ -80,11 +80,7 @@ void SystemcPort::end_step(std::uint64_t step) {
 }
 
 std::vector<SignalRange> SystemcPort::inner_ranges() const {
-  const spec::ArraySpec& array = device_.cells.array();
-  const systemc::Extremes& e = device_.cells.extremes;
-  return {{"accumulator", spec::accumulator_format(array, device_.cells.topology().most_taps()), e.least_sum,
-           e.largest_sum},
-          {"drive", array.formats.drive, e.least_drive, e.largest_drive}};
+  return levels::inner_ranges(device_.cells.array(), device_.cells.topology(), device_.cells.extremes);
 }
 
 } // namespace hopmesh::levels

@@ -4,14 +4,14 @@
 
 #include "sim/levels/level.h"
 #include "sim/networks/loaded_array.h"
-#include "sim/networks/solvers/race.h"
+#include "sim/networks/solvers/solver_runs.h"
 
 namespace hopmesh::networks {
 
 /// An array that holds one network. Vectors are numbered as solvers::reached() does.
 class StepArray {
  public:
-  /// `whole`: the network over all nodes. It and `prepared` must outlive this.
+  /// `whole`: the network over all nodes; like `prepared`, it must outlive this.
   StepArray(const solvers::Problem& whole, const levels::Prepared& prepared);
 
   /// The first loads weights, biases and the start. Throws levels::Stopped where the user stops it, and
@@ -33,7 +33,7 @@ class StepArray {
   std::uint64_t cycles_ = 0;
 };
 
-/// One course of it, on until it stands still; `problem` is what reached() leaves of the array's.
+/// The course of an array, on until it stands still; `problem` is what reached() leaves of the array's.
 solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
                           solvers::Limits limits, const std::atomic<bool>& stop);
 

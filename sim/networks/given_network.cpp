@@ -98,7 +98,7 @@ GivenNetwork::GivenNetwork(const NetworkData& data, double start_of_none) {
   describe();
 }
 
-// Both directions of every coupling, row by row, each once.
+// The two directions of every coupling, row by row, each once.
 void GivenNetwork::find_links(const SparseMatrix& W) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
   links.reserve(2 * W.entries.size());

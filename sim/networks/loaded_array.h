@@ -24,7 +24,7 @@ class LoadedArray {
 
   // Of what is loaded:
   void put_outputs(const std::vector<double>& outputs);
-  /// One more sweep; the largest |change| of an output.
+  /// A further sweep; the largest |change| of an output.
   double sweep();
   const std::vector<double>& outputs() const { return outputs_; }
   /// As the memories have them, in units of the network that was given.

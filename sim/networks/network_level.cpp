@@ -11,9 +11,7 @@ using reference::Vector;
 class ReferenceLevel : public NetworkLevel {
  public:
   ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array)
-      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)),
-        output_(array.output == spec::Output::binary ? reference::Output::binary
-                                                     : reference::Output::modified),
+      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)), output_(array.output),
         V_(network.start()) {}
 
   Rest relax(double threshold, std::uint32_t max_sweeps) override {
@@ -33,7 +31,7 @@ class ReferenceLevel : public NetworkLevel {
  private:
   const GivenNetwork& network_;
   const reference::Order order_;
-  const reference::Output output_;
+  const spec::Output output_;
   Vector V_;
 };
 

@@ -26,7 +26,7 @@ class NetworkLevel {
   virtual Rest relax(double threshold, std::uint32_t max_sweeps) = 0;
   /// Puts the start back.
   virtual void restart() = 0;
-  /// One more sweep; the largest |change| of an output.
+  /// Another sweep; the largest |change| of an output.
   virtual double sweep() = 0;
   virtual const reference::Vector& outputs() const = 0;
   /// The network as it stands in an array's memories, in units of the one that was given; none where there

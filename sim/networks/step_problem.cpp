@@ -38,7 +38,7 @@ Problem still_problem(const reference::Increment& increment, const Vector& place
   const double scale = farthest > 0 ? std::exp2(std::ceil(std::log2(2 * farthest))) : usual_scale;
   reference::State state;
   state.acceleration = back;
-  const Vector start = reference::expansion_point(mesh.mesh(), {}, state, scale);
+  const Vector start = reference::expansion_point(mesh.mesh(), state, scale);
   return problem_of(reference::network(mesh.mesh(), increment, scale, start), start, mesh);
 }
 
@@ -47,19 +47,17 @@ Problem still_problem(const reference::Increment& increment, const Vector& place
 Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
                      const levels::Prepared& p, const StepStart& how) {
   const reference::Step& step = motion.last_step();
-  const bool incremental = p.inputs.scene.motion.formulation == scene::Formulation::incremental;
   const reference::State state = levels::state_of(before);
   if (how.still) {
-    if (!incremental)
+    if (!motion.formulation().increment)
       throw input::input_error("", 0, "--still", "a scene of the probe", "formulation = \"incremental\"");
     return still_problem(increment_of(p, state, how.time_step), state.position, *p.mesh, step.scale);
   }
   Vector start = step.V0;
   if (how.cold)
     start.setZero();
-  else if (incremental)
-    start =
-        reference::expansion_point(p.mesh->mesh(), reference::motion_of(p.inputs.scene), state, step.scale);
+  else if (motion.formulation().increment)
+    start = motion.formulation().start(p.mesh->mesh(), state, step.scale);
   return problem_of(step.network, start, *p.mesh);
 }
 

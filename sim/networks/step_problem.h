@@ -1,4 +1,4 @@
-// One step's network as the rivals' solvers take it, and where they start.
+// A step's network as the rivals' solvers take it, and where they start.
 #pragma once
 
 #include "sim/levels/prepared.h"

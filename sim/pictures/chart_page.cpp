@@ -1,6 +1,6 @@
 #include "sim/pictures/chart_page.h"
 
-#include "sim/pictures/svg_chart.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ document.addEventListener('click',event=>{if(!tip.contains(event.target))kept=fa
 
 std::string row_of(const std::vector<std::string>& cells, const char* tag) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, xml(cell));
+  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
   return row + "</tr>\n";
 }
 
@@ -43,7 +43,7 @@ std::string chart_page(const std::string& title, const std::string& svg, const f
       "and the command that repeats it. A click keeps them for copying.</div>\n<div "
       "class=\"table\"><table><thead>{}</thead><tbody>\n{}</tbody></table></div></main>\n"
       "<script>{}</script></body></html>\n",
-      xml(title), style, svg, row_of(table.header, "th"), rows, script);
+      escaped(title), style, svg, row_of(table.header, "th"), rows, script);
 }
 
 } // namespace hopmesh::pictures

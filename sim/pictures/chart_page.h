@@ -5,7 +5,7 @@
 
 namespace hopmesh::pictures {
 
-/// Self-contained HTML; `svg` as svg_of or svg_map makes it, the table below it in full.
+/// Self-contained HTML: a chart as svg_of makes it, and below it the whole table.
 std::string chart_page(const std::string& title, const std::string& svg, const files::CsvTable& table);
 
 } // namespace hopmesh::pictures

@@ -3,7 +3,7 @@
 #include "sim/pictures/gltf.h"
 
 #include "sim/files/output_file.h"
-#include "sim/pictures/flag_crest.h"
+#include "sim/pictures/assets.h"
 #include "sim/pictures/surface.h"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ class Packer {
 };
 
 void add_crest(tinygltf::Model& model, Packer& packer, tinygltf::Material& material) {
-  const std::string_view png = flag_crest();
+  const std::string& png = asset("crest.png");
   tinygltf::Image image;
   image.name = "crest";
   image.mimeType = "image/png";
@@ -167,7 +167,7 @@ tinygltf::Primitive primitive_of(const RunView& view, const std::vector<std::siz
   return primitive;
 }
 
-/// What the library streams goes straight into the file: a large mesh is in memory often enough.
+/// A stream into a file, so that a large mesh is not held in memory once more.
 class IntoFile : public std::streambuf {
  public:
   explicit IntoFile(files::OutputFile& file) : file_(file) {}
@@ -227,7 +227,7 @@ void write_glb(const RunView& view, const std::filesystem::path& path) {
   model.asset.version = "2.0";
   model.asset.generator = "Hopmesh";
   // A mesh has about two triangles a node; a vertex is 32 bytes, and 24 more in each further frame.
-  Packer packer(model, view.nodes * (56 + 24 * frames.size()) + flag_crest().size() + (1u << 16));
+  Packer packer(model, view.nodes * (56 + 24 * frames.size()) + asset("crest.png").size() + (1u << 16));
   add_material(model, packer, view.crest && !view.triangles.empty());
   tinygltf::Mesh mesh;
   mesh.name = valid_utf8(view.title);

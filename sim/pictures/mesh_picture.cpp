@@ -1,8 +1,9 @@
 #include "sim/pictures/mesh_picture.h"
 
-#include "sim/files/base64.h"
-#include "sim/pictures/mesh_bitmap.h"
-#include "sim/pictures/svg_chart.h"
+#include "sim/files/output_file.h"
+#include "sim/pictures/coarse_view.h"
+#include "sim/pictures/mesh_shapes.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,13 +29,21 @@ std::string svg_of(const Shape& shape) {
   return fmt::format("<path d=\"{}\" fill=\"#{:06x}\"/>\n", path_of(shape), shape.colour);
 }
 
+std::size_t count_shapes(const RunView& view) {
+  std::size_t count = 0;
+  MeshShapes(view).end([&](const Shape&) { ++count; });
+  return count;
+}
+
 // The farthest first, so that what is near lies over it.
-void write_vectors(const MeshShapes& shapes, std::vector<Shape>& end, files::OutputFile& file) {
+void write_shapes(const MeshShapes& shapes, files::OutputFile& file) {
   std::string d;
   shapes.start([&](const Shape& shape) { d += path_of(shape); });
   if (!d.empty())
     file.write(
         fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#{:06x}\" stroke-width=\"1\"/>\n", d, faint));
+  std::vector<Shape> end;
+  shapes.end([&](const Shape& shape) { end.push_back(shape); });
   std::stable_sort(end.begin(), end.end(),
                    [](const Shape& a, const Shape& b) { return a.nearness() < b.nearness(); });
   file.write("<g stroke=\"#10243c\" stroke-opacity=\"0.4\" stroke-width=\"0.6\" stroke-linejoin=\"round\" "
@@ -43,33 +52,20 @@ void write_vectors(const MeshShapes& shapes, std::vector<Shape>& end, files::Out
   file.write("</g>\n");
 }
 
-void write_bitmap(const MeshShapes& shapes, files::OutputFile& file) {
-  file.write(fmt::format("<image width=\"{}\" height=\"{}\" href=\"data:image/png;base64,", shapes.width(),
-                         shapes.height()));
-  const std::string png = files::encode_png(bitmap_of(shapes, 2, faint));
-  files::Base64Writer digits(file);
-  digits.bytes(png.data(), png.size());
-  digits.end();
-  file.write("\"/>\n");
-}
-
 } // namespace
 
 void write_mesh_picture(const RunView& view, const std::filesystem::path& path) {
-  const MeshShapes shapes(view);
-  std::vector<Shape> few;
-  shapes.end([&](const Shape& shape) {
-    if (few.size() <= most_vectors) few.push_back(shape);
-  });
+  RunView coarse;
+  const RunView* drawn = &view;
+  for (double cubes = 64; count_shapes(*drawn) > most_shapes; cubes /= 1.25)
+    drawn = &(coarse = coarse_view(view, cubes));
+  const MeshShapes shapes(*drawn);
   files::OutputFile file(path);
   file.write(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
                          "height=\"{1}\">\n<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" "
                          "fill=\"#fff\"/>\n",
-                         shapes.width(), shapes.height(), xml(view.title)));
-  if (few.size() <= most_vectors)
-    write_vectors(shapes, few, file);
-  else
-    write_bitmap(shapes, file);
+                         shapes.width(), shapes.height(), escaped(view.title)));
+  write_shapes(shapes, file);
   file.write("</svg>\n");
   file.commit();
 }

@@ -7,8 +7,8 @@
 
 namespace hopmesh::pictures {
 
-/// Shapes that are drawn as vectors; more become a bitmap, so that the file stays small for any mesh.
-inline constexpr std::size_t most_vectors = 4000;
+/// A mesh of more shapes is drawn coarser, so that the file of any mesh stays small.
+inline constexpr std::size_t most_shapes = 4000;
 
 /// The first and the last frame of a run. Throws WriteError.
 void write_mesh_picture(const RunView& view, const std::filesystem::path& path);

@@ -39,7 +39,7 @@ Floats upright(const RunView& view, std::size_t frame) {
   return positions_of(view, nodes, frame);
 }
 
-/// Each edge is walked once either way by the triangles beside it.
+/// True where two triangles meet at every edge and walk it in opposite directions.
 bool has_no_rim(const RunView& view) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> there, reversed;
   for (const auto& t : view.triangles)
@@ -65,7 +65,7 @@ double volume(const RunView& view, const Floats& at) {
   return sum;
 }
 
-/// A face that light from the upper left falls on; its back has another colour.
+/// The colour of a face under light from the upper left; backs have a colour of their own.
 std::uint32_t lit(const Seen& a, const Seen& b, const Seen& c) {
   const double u[3] = {b.x - a.x, a.y - b.y, b.nearness - a.nearness},
                v[3] = {c.x - a.x, a.y - c.y, c.nearness - a.nearness};
@@ -97,7 +97,7 @@ MeshShapes::MeshShapes(const RunView& view)
   look();
 }
 
-// The viewer stands where the whole way from start to end is on the paper.
+// Scale and middle are such that start and end are both on the paper.
 void MeshShapes::look() {
   Extent axis[3], x, y;
   for (const Floats* frame : {&start_, &end_})
@@ -149,8 +149,8 @@ void MeshShapes::faces(const Floats& frame, const Draw& draw) const {
   }
 }
 
-// Of springs on faces only those whose ends are both pinned: wires, poles, rims; a little nearer than the
-// face.
+// A spring on faces is drawn only where both of its ends are pinned: a wire, a pole, a rim. Lines stand a
+// little nearer than the faces, and dots nearer than the lines.
 void MeshShapes::lines(const Floats& frame, const Draw& draw) const {
   Shape shape{std::vector<Seen>(2), 0, 2};
   for (const ViewSpring& s : view_.springs) {
@@ -163,7 +163,7 @@ void MeshShapes::lines(const Floats& frame, const Draw& draw) const {
   }
 }
 
-// Pinned nodes, and all of a small net of lines.
+// Dots are drawn at pinned nodes, and at every node of a small net of lines.
 void MeshShapes::dots(const Draw& draw) const {
   const bool every = view_.triangles.empty() && view_.nodes <= most_small;
   for (std::size_t n = 0; n < view_.nodes; ++n) {

@@ -1,4 +1,4 @@
-// A run's mesh as flat shapes on paper: what picture.svg draws, be it as vectors or as a bitmap.
+// A run's mesh as flat shapes on paper: what picture.svg draws.
 #pragma once
 
 #include "sim/pictures/surface.h"
@@ -22,7 +22,7 @@ struct Shape {
 };
 
 /// A mesh that lies in a plane before the viewer is seen from straight ahead, any other a little from the
-/// side and from above. Nothing of what it hands out is kept: a million nodes are drawn one by one.
+/// side and from above. Shapes are handed out one by one and not kept: a mesh may have millions.
 class MeshShapes {
  public:
   using Draw = std::function<void(const Shape&)>;

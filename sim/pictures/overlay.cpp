@@ -1,7 +1,7 @@
 #include "sim/pictures/overlay.h"
 
-#include "sim/files/base64.h"
 #include "sim/files/png.h"
+#include "sim/pictures/base64.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ void write_overlay(const std::filesystem::path& path, const files::GreyPicture& 
                          "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,",
                          picture.width, picture.height, picture.width * zoom, picture.height * zoom));
   const std::string png = png_of(picture);
-  files::Base64Writer digits(file);
+  Base64Writer digits(file);
   digits.bytes(png.data(), png.size());
   digits.end();
   file.write("\"/>\n");

@@ -1,4 +1,4 @@
-// A mesh drawn over the picture that it was let loose on, as SVG.
+// A mesh drawn over the image that pulls it, as SVG.
 #pragma once
 
 #include "sim/files/grey_picture.h"
@@ -13,7 +13,7 @@ struct OverlayLine {
   std::array<double, 2> from, to;
 };
 
-/// `start` in faint, `end` in bright lines over the picture.
+/// The lines of the start are faint, those of the end bright.
 void write_overlay(const std::filesystem::path& path, const files::GreyPicture& picture,
                    const std::vector<OverlayLine>& start, const std::vector<OverlayLine>& end);
 

@@ -2,9 +2,9 @@
 // which put it on the page as text only; so no name or message of a run can become markup or code.
 #include "sim/pictures/report.h"
 
-#include "sim/files/base64.h"
-#include "sim/pictures/flag_crest.h"
-#include "sim/pictures/report_assets.h"
+#include "sim/pictures/assets.h"
+#include "sim/pictures/base64.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <fstream>
 #include <functional>
@@ -28,20 +28,20 @@ std::string safe(const nlohmann::json& json) {
   return out;
 }
 
-/// An object that is still to be filled: without its closing brace.
+/// The object's text without its closing brace, so that members can follow.
 std::string opened(const nlohmann::json& object) {
   std::string text = safe(object);
   text.pop_back();
   return text;
 }
 
-/// One more member of an object that has some. Large arrays go straight into the file, as base64 digits,
+/// A further member of an object that has some. Large arrays go straight into the file, as base64 digits,
 /// which need no escaping.
 template <class Fill> void put_array(files::OutputFile& file, std::string_view name, Fill fill) {
   file.write(",\"");
   file.write(name);
   file.write("\":\"");
-  files::Base64Writer digits(file);
+  Base64Writer digits(file);
   fill(digits);
   digits.end();
   file.write("\"");
@@ -49,28 +49,28 @@ template <class Fill> void put_array(files::OutputFile& file, std::string_view n
 
 template <class T>
 void put_array(files::OutputFile& file, std::string_view name, const std::vector<T>& values) {
-  put_array(file, name, [&](files::Base64Writer& out) { out.values(values); });
+  put_array(file, name, [&](Base64Writer& out) { out.values(values); });
 }
 
 void put_mesh(files::OutputFile& file, const RunView& view) {
-  put_array(file, "triangles", [&](files::Base64Writer& out) {
+  put_array(file, "triangles", [&](Base64Writer& out) {
     for (const auto& triangle : view.triangles)
       for (const ViewCorner& corner : triangle) out.value(corner.node);
   });
-  put_array(file, "uv", [&](files::Base64Writer& out) {
+  put_array(file, "uv", [&](Base64Writer& out) {
     for (const auto& triangle : view.triangles)
       for (const ViewCorner& corner : triangle) out.value(corner.u), out.value(corner.v);
   });
-  put_array(file, "springs", [&](files::Base64Writer& out) {
+  put_array(file, "springs", [&](Base64Writer& out) {
     for (const ViewSpring& spring : view.springs) out.value(spring.node);
   });
-  put_array(file, "restLengths", [&](files::Base64Writer& out) {
+  put_array(file, "restLengths", [&](Base64Writer& out) {
     for (const ViewSpring& spring : view.springs) out.value(spring.rest_length);
   });
 }
 
 void put_motion(files::OutputFile& file, const RunView& view) {
-  put_array(file, "frames", [&](files::Base64Writer& out) {
+  put_array(file, "frames", [&](Base64Writer& out) {
     for (const auto& frame : view.frames) out.values(frame);
   });
   put_array(file, "frameTimes", view.frame_times);
@@ -107,23 +107,14 @@ void put_data(files::OutputFile& file, const RunView& view) {
   file.write(",\"crest\":\"");
   if (view.crest && !view.triangles.empty()) {
     file.write("data:image/png;base64,");
-    files::Base64Writer digits(file);
-    digits.bytes(flag_crest().data(), flag_crest().size());
+    Base64Writer digits(file);
+    digits.bytes(asset("crest.png").data(), asset("crest.png").size());
     digits.end();
   }
   file.write("\"");
   put_mesh(file, view);
   put_motion(file, view);
   file.write("}");
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const char* const entity = c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : nullptr;
-    entity ? out += entity : out += c;
-  }
-  return out;
 }
 
 void put_three(files::OutputFile& file, const std::filesystem::path& folder) {
@@ -134,7 +125,7 @@ void put_three(files::OutputFile& file, const std::filesystem::path& folder) {
   source.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(source.gcount()));
   if (text.empty()) return file.write("// three.js was not found: the page draws on a 2-D canvas.");
-  file.write(report_assets().at("three_license.js"));
+  file.write(asset("three_license.js"));
   // In a script "<\/" means the same as "</", but does not end the element.
   std::size_t begin = 0;
   for (std::size_t at; (at = text.find("</script", begin)) != std::string::npos; begin = at + 1) {
@@ -150,14 +141,14 @@ void put_script(files::OutputFile& file) {
   for (const char* name :
        {"data.js", "camera.js", "surface.js", "view_webgl.js", "view_canvas.js", "charts.js", "page.js"}) {
     file.write("\n");
-    file.write(report_assets().at(name));
+    file.write(asset(name));
   }
   file.write("})();\n");
 }
 
 using Parts = std::map<std::string, std::function<void(files::OutputFile&)>>;
 
-/// One walk over the template: what is put in is never looked at for further {{names}}.
+/// Fills in the template's {{names}}; what is put in is not searched for further ones.
 void fill(files::OutputFile& file, const std::string& page, const Parts& parts) {
   std::size_t at = 0;
   for (std::size_t open; (open = page.find("{{", at)) != std::string::npos;) {
@@ -174,9 +165,9 @@ void fill(files::OutputFile& file, const std::string& page, const Parts& parts) 
 void write_report(const RunView& view, const std::filesystem::path& path,
                   const std::filesystem::path& three_folder) {
   files::OutputFile page(path);
-  fill(page, report_assets().at("report.html"),
+  fill(page, asset("report.html"),
        {{"title", [&](files::OutputFile& file) { file.write(escaped(view.title)); }},
-        {"css", [](files::OutputFile& file) { file.write(report_assets().at("report.css")); }},
+        {"css", [](files::OutputFile& file) { file.write(asset("report.css")); }},
         {"data", [&](files::OutputFile& file) { put_data(file, view); }},
         {"three", [&](files::OutputFile& file) { put_three(file, three_folder); }},
         {"script", put_script}});

@@ -1,5 +1,4 @@
-// What the pictures of a run need: filled by the study, drawn by glTF and report. Plain data, no model behind
-// it.
+// What the pictures of a run need, as plain data: the run fills it in; glTF, report and picture.svg draw it.
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@ struct ViewSpring {
   float rest_length;
 };
 
-/// A series over steps, e.g. {"sweeps", "", {...}}; unit may be empty.
+/// A figure over the steps, as the report heads its chart; the unit may be empty.
 struct Series {
   std::string name, unit;
   std::vector<double> values;
@@ -47,7 +46,7 @@ struct RunView {
   std::vector<double> frame_times;        ///< s
   std::vector<double> frame_steps;
   std::vector<double> step_times; ///< s, abscissa of the series
-  std::vector<Series> series;     ///< sweeps, cycles, energy, kinetic, max_strain, error_v, ...
+  std::vector<Series> series;
   std::vector<std::pair<std::string, std::vector<Figure>>>
       tables;           ///< e.g. {"The array", {...}}, {"Speed", {...}}
   std::string manifest; ///< manifest.json as text

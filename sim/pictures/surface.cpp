@@ -43,7 +43,7 @@ Surface surface_of(const RunView& view) {
         surface.indices.push_back(*place);
         surface.node.push_back(c.node);
         surface.uv.insert(surface.uv.end(), {c.u, c.v});
-        next.push_back(none); // moves what `place` may point into: last
+        next.push_back(none); // after all use of `place`: this may move what it points to
       } else {
         surface.indices.push_back(*place);
       }

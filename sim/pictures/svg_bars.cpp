@@ -1,170 +1,129 @@
 #include "sim/pictures/svg_bars.h"
 
-#include "sim/pictures/svg_chart.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace hopmesh::pictures {
 
 namespace {
 
-constexpr double width = 1180, height = 520, top = 104, bottom = 420, panel = 470, left = 84, gap = 96;
+constexpr Box whole{84, 104, 554, 420}, alone{650, 104, 1120, 420};
+constexpr double wide = whole.right - whole.left;
+constexpr const char *thin = "#e2e2e2", *red = "#b03a2e";
 
-/// 1, 2 or 5 times a power of ten: about five of them in `span`.
-double step_for(double span) {
-  const double power = std::pow(10, std::floor(std::log10(span / 5)));
-  for (double digit : {1.0, 2.0, 5.0})
-    if (digit * power >= span / 5) return digit * power;
-  return 10 * power;
+/// From the lowest end of the bars to the highest, and a little room.
+Axis axis_of_stacks(const StackedBars& bars) {
+  double low = 0, high = 0;
+  for (std::size_t k = 0; k < bars.x.size(); ++k) {
+    double up = 0, down = 0;
+    for (const BarPart& part : bars.parts) (part.stacked[k] > 0 ? up : down) += part.stacked[k];
+    high = std::max(high, up), low = std::min(low, down);
+  }
+  if (high <= low) high = low + 1;
+  high += 0.05 * (high - low);
+  if (low < 0) low -= 0.05 * (high - low);
+  return {low, high, whole.bottom, whole.top};
 }
 
-class Drawing {
- public:
-  explicit Drawing(const StackedBars& bars) : bars_(bars) {
-    find_span();
-    find_decades();
-  }
+/// 1, 2 or 5 times a power of ten: about five of them along the axis.
+double step_along(const Axis& axis) {
+  const double least = (axis.high - axis.low) / 5, power = std::pow(10, std::floor(std::log10(least)));
+  return power * (power >= least ? 1 : 2 * power >= least ? 2 : 5 * power >= least ? 5 : 10);
+}
 
-  std::string text() {
-    put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\" fill=\"#222\">\n"
-        "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"{2}\" y=\"34\" font-size=\"20\" "
-        "font-weight=\"600\">{3}</text>\n<text x=\"{2}\" y=\"56\" fill=\"#666\">{4}</text>\n",
-        width, height, left, xml(bars_.title), xml(bars_.note));
-    put("<text transform=\"translate(22 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-        (top + bottom) / 2, xml(bars_.y_label));
-    stacked();
-    lengths();
-    legend();
-    return out_ + "</svg>\n";
+/// Whole decades.
+Axis axis_of_lengths(const StackedBars& bars) {
+  std::vector<double> all = bars.floor;
+  for (const BarPart& part : bars.parts) all.insert(all.end(), part.length.begin(), part.length.end());
+  all.erase(std::remove_if(all.begin(), all.end(), [](double v) { return !(v > 0); }), all.end());
+  if (all.empty()) return {-1, 0, alone.bottom, alone.top, true};
+  const auto [least, most] = std::minmax_element(all.begin(), all.end());
+  const double first = std::floor(std::log10(*least));
+  return {first, std::max(first + 1, std::ceil(std::log10(*most))), alone.bottom, alone.top, true};
+}
+
+class Drawing : public SvgCanvas {
+ public:
+  explicit Drawing(const StackedBars& bars)
+      : SvgCanvas(1180, 520, whole.left, bars.title, bars.note), bars_(bars) {
+    draw_stacks(axis_of_stacks(bars));
+    draw_lengths(axis_of_lengths(bars));
+    double x = whole.left;
+    for (std::size_t p = 0; p < bars.parts.size(); ++p) x = name(x, 494, chart_colour(p), bars.parts[p].name);
+    name(x, 494, red, bars.floor_name);
   }
 
  private:
-  template <typename... Args> void put(fmt::format_string<Args...> format, Args&&... args) {
-    out_ += fmt::format(format, std::forward<Args>(args)...);
-  }
+  /// The middle of a place in a panel, from its left edge.
+  double middle(std::size_t k) const { return wide * (double(k) + 0.5) / double(bars_.x.size()); }
 
-  /// Heights of the bars above zero, depths below.
-  void find_span() {
-    for (std::size_t k = 0; k < bars_.x.size(); ++k) {
-      double up = 0, down = 0;
-      for (const BarPart& part : bars_.parts) (part.stacked[k] > 0 ? up : down) += part.stacked[k];
-      high_ = std::max(high_, up), low_ = std::min(low_, down);
-    }
-    if (high_ <= low_) high_ = low_ + 1;
-    high_ += 0.05 * (high_ - low_);
-    if (low_ < 0) low_ -= 0.05 * (high_ - low_);
-  }
-
-  void find_decades() {
-    std::vector<double> all = bars_.floor;
-    for (const BarPart& part : bars_.parts) all.insert(all.end(), part.length.begin(), part.length.end());
-    all.erase(std::remove_if(all.begin(), all.end(), [](double v) { return !(v > 0); }), all.end());
-    if (all.empty()) return;
-    const auto [least, most] = std::minmax_element(all.begin(), all.end());
-    first_ = std::floor(std::log10(*least)), last_ = std::max(first_ + 1, std::ceil(std::log10(*most)));
-  }
-
-  double linear(double value) const { return bottom - (value - low_) / (high_ - low_) * (bottom - top); }
-  double logarithmic(double value) const {
-    return bottom - (std::log10(value) - first_) / (last_ - first_) * (bottom - top);
-  }
-  /// The middle of a place's slot in a panel.
-  double place(double from, std::size_t k) const {
-    return from + panel * (static_cast<double>(k) + 0.5) / static_cast<double>(bars_.x.size());
-  }
-
-  void frame(double from, const std::string& title) {
-    put("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#999\"/>\n", from, top,
-        panel, bottom - top);
-    put("<text x=\"{}\" y=\"{}\" font-size=\"15\" font-weight=\"600\">{}</text>\n", from, top - 14,
-        xml(title));
+  void draw_frame(const Box& box, const std::string& heading, const std::string& y_label) {
+    frame(box, heading, bars_.x_label, y_label);
     for (std::size_t k = 0; k < bars_.x.size(); ++k)
-      put("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:.3g}</text>\n", place(from, k), bottom + 20,
-          bars_.x[k]);
-    put("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", from + panel / 2, bottom + 42,
-        xml(bars_.x_label));
+      number_x(box, box.left + middle(k), fmt::format("{:.3g}", bars_.x[k]));
   }
 
-  void line_at(double from, double y, const std::string& number) {
-    put("<path d=\"M{} {:.1f}h{}\" stroke=\"#e2e2e2\"/><text x=\"{}\" y=\"{:.1f}\" "
-        "text-anchor=\"end\">{}</text>\n",
-        from, y, panel, from - 8, y + 4.5, number);
+  void draw_stacks(const Axis& axis) {
+    const double step = step_along(axis);
+    for (int k = int(std::ceil(axis.low / step)); k * step <= axis.high; ++k)
+      number_y(whole, axis.at(k * step), fmt::format("{:.3g}", k * step), k == 0 ? "#222" : thin);
+    for (std::size_t k = 0; k < bars_.x.size(); ++k) draw_stack(axis, k);
+    draw_frame(whole, bars_.stacked_title, bars_.y_label);
   }
 
-  void stacked() {
-    const double step = step_for(high_ - low_);
-    for (int k = static_cast<int>(std::ceil(low_ / step)); k * step <= high_; ++k)
-      line_at(left, linear(k * step), fmt::format("{:.3g}", k * step));
-    const double wide = 0.62 * panel / static_cast<double>(std::max<std::size_t>(1, bars_.x.size()));
-    for (std::size_t k = 0; k < bars_.x.size(); ++k) bar(k, place(left, k) - wide / 2, wide);
-    put("<path d=\"M{} {:.1f}h{}\" stroke=\"#222\"/>\n", left, linear(0), panel);
-    frame(left, bars_.stacked_title);
-  }
-
-  void bar(std::size_t k, double x, double wide) {
+  void draw_stack(const Axis& axis, std::size_t k) {
+    const double bar = 0.62 * wide / double(bars_.x.size());
     double up = 0, down = 0;
     for (std::size_t p = 0; p < bars_.parts.size(); ++p) {
       const double value = bars_.parts[p].stacked[k];
       double& end = value > 0 ? up : down;
-      const double from = linear(std::max(end, end + value)), to = linear(std::min(end, end + value));
+      const double from = axis.at(std::max(end, end + value)), to = axis.at(std::min(end, end + value));
       end += value;
-      put("<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.2f}\" width=\"{:.1f}\" height=\"{:.2f}\" "
-          "fill=\"{}\"><title>{}: {:.3g}</title></rect>\n",
-          x, from, wide, to - from, chart_colour(p), xml(bars_.parts[p].name), value);
+      put(R"(<rect class="bar" x="{}" y="{}" width="{}" height="{}" fill="{}"><title>{}</title></rect>)",
+          whole.left + middle(k) - bar / 2, from, bar, to - from, chart_colour(p), tip(p, value));
     }
   }
 
-  void lengths() {
-    const double from = left + panel + gap;
-    for (double decade = first_; decade <= last_; ++decade)
-      line_at(from, logarithmic(std::pow(10, decade)),
-              fmt::format("10<tspan dy=\"-5\" font-size=\"10\">{:g}</tspan>", decade));
-    for (std::size_t p = 0; p < bars_.parts.size(); ++p)
-      curve(from, bars_.parts[p].length, chart_colour(p), bars_.parts[p].name, "");
-    curve(from, bars_.floor, "#b03a2e", bars_.floor_name, "8 4");
-    frame(from, bars_.length_title);
-  }
-
-  void curve(double from, const std::vector<double>& values, const char* colour, const std::string& name,
-             const char* dashes) {
-    std::string path, dots;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (!(values[k] > 0)) continue;
-      const double x = place(from, k), y = logarithmic(values[k]);
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
-      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"><title>{}: "
-                          "{:.3g}</title></circle>\n",
-                          x, y, colour, xml(name), values[k]);
+  void draw_lengths(const Axis& axis) {
+    for (int exponent = int(axis.low); exponent <= int(axis.high); ++exponent)
+      number_y(alone, axis.at(std::pow(10, exponent)), power_of_ten(exponent), thin);
+    for (std::size_t p = 0; p < bars_.parts.size(); ++p) {
+      draw_curve(axis, bars_.parts[p].length, chart_colour(p), "");
+      for (std::size_t k = 0; k < bars_.x.size(); ++k) draw_dot(axis, p, k);
     }
-    put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"{}\"/>\n{}", path,
-        colour, dashes, *dashes ? "" : dots);
+    draw_curve(axis, bars_.floor, red, "8 4");
+    draw_frame(alone, bars_.length_title, "");
   }
 
-  void legend() {
-    double x = left;
-    const double y = height - 26;
-    const auto entry = [&](const std::string& name, const char* colour) {
-      put("<rect x=\"{:.1f}\" y=\"{}\" width=\"13\" height=\"13\" fill=\"{}\"/><text x=\"{:.1f}\" "
-          "y=\"{}\">{}</text>\n",
-          x, y - 11, colour, x + 19, y, xml(name));
-      x += 52 + 7.2 * static_cast<double>(name.size());
-    };
-    for (std::size_t p = 0; p < bars_.parts.size(); ++p) entry(bars_.parts[p].name, chart_colour(p));
-    entry(bars_.floor_name, "#b03a2e");
+  void draw_curve(const Axis& axis, const std::vector<double>& values, const char* colour,
+                  const char* dashes) {
+    Points points;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (values[k] > 0) points.emplace_back(alone.left + middle(k), axis.at(values[k]));
+    put(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1.6" stroke-dasharray="{}"/>)",
+        path_through(points), colour, dashes);
+  }
+
+  void draw_dot(const Axis& axis, std::size_t p, std::size_t k) {
+    const double value = bars_.parts[p].length[k];
+    if (value > 0)
+      put(R"(<circle cx="{}" cy="{}" r="4" fill="{}"><title>{}</title></circle>)", alone.left + middle(k),
+          axis.at(value), chart_colour(p), tip(p, value));
+  }
+
+  std::string tip(std::size_t p, double value) const {
+    return fmt::format("{}: {:.3g}", escaped(bars_.parts[p].name), value);
   }
 
   const StackedBars& bars_;
-  double low_ = 0, high_ = 0, first_ = -1, last_ = 0;
-  std::string out_;
 };
 
 } // namespace
 
 std::string svg_of(const StackedBars& bars) {
-  return Drawing(bars).text();
+  return Drawing(bars).finish();
 }
 
 } // namespace hopmesh::pictures

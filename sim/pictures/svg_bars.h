@@ -7,7 +7,7 @@
 
 namespace hopmesh::pictures {
 
-/// One part, at each place along x.
+/// A part, at each place along x.
 struct BarPart {
   std::string name;
   std::vector<double> stacked; ///< signed; the parts of a place add up to the whole

@@ -12,7 +12,7 @@ struct ChartPoint {
   std::string tip, command;
 };
 
-/// One method (or one place on an axis): a colour. Each ladder is joined by a line.
+/// A method (or one place on an axis): a colour. Each ladder is joined by a line.
 struct ChartSeries {
   std::string name;
   std::vector<std::vector<ChartPoint>> ladders;
@@ -38,11 +38,5 @@ std::vector<ChartPoint> pareto_front(const std::vector<ChartPoint>& points);
 
 /// Points with an x or y that is not above 0 have no place on a log-log chart and are counted below it.
 std::string svg_of(const Chart& chart);
-
-/// For text and attributes of XML.
-std::string xml(const std::string& text);
-
-/// Colours that stay apart for the colour-blind; they repeat after the sixteenth.
-const char* chart_colour(std::size_t series);
 
 } // namespace hopmesh::pictures

@@ -1,149 +1,123 @@
 #include "sim/pictures/svg_map.h"
 
-#include "sim/pictures/svg_chart.h"
+#include "sim/pictures/svg_canvas.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
 
 namespace hopmesh::pictures {
 
 namespace {
 
-constexpr double side = 380, gap = 46, left = 86, top = 104, below = 108;
-constexpr const char* strokes[] = {"none", "7 4", "2 4"}; // dashes of the first, second and third line
+constexpr double side = 380, pitch_x = 426, pitch_y = 464, left = 86, top = 104; // of the panels
+constexpr const char* dashes[] = {"none", "7 4", "2 4"};                         // of a panel's lines
 
-class Drawing {
+/// Of panels: a few stand in one row.
+std::size_t columns_for(std::size_t panels) {
+  return panels <= 3 ? std::max<std::size_t>(1, panels) : std::size_t(std::ceil(std::sqrt(double(panels))));
+}
+
+double right_of(const CellMap& map) {
+  return left + double(columns_for(map.panels.size())) * pitch_x;
+}
+
+double bottom_of(const CellMap& map) {
+  const std::size_t columns = columns_for(map.panels.size());
+  return top + double((map.panels.size() + columns - 1) / columns) * pitch_y;
+}
+
+class Drawing : public SvgCanvas {
  public:
-  explicit Drawing(const CellMap& map) : map_(map) {
-    const auto panels = static_cast<double>(std::max<std::size_t>(1, map.panels.size()));
-    columns_ = static_cast<std::size_t>(panels <= 3 ? panels : std::ceil(std::sqrt(panels)));
-    cell_x_ = side / static_cast<double>(std::max<std::size_t>(1, map.xs.size()));
-    cell_y_ = side / static_cast<double>(std::max<std::size_t>(1, map.ys.size()));
-  }
-
-  std::string text() {
-    const std::size_t rows = (map_.panels.size() + columns_ - 1) / columns_;
-    const double width = std::max(640.0, left + double(columns_) * (side + gap));
-    const double height = top + double(rows) * (side + 84) + below - 20;
-    put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"12\" fill=\"#222\">\n"
-        "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"{2}\" y=\"38\" font-size=\"20\" "
-        "font-weight=\"600\">{3}</text>\n",
-        width, height, left, xml(map_.title));
-    for (std::size_t p = 0; p < map_.panels.size(); ++p) {
-      const std::size_t row = p / columns_, column = p % columns_;
-      panel(p, left + double(column) * (side + gap), top + double(row) * (side + 84));
+  explicit Drawing(const CellMap& map)
+      : SvgCanvas(std::max(640.0, right_of(map)), bottom_of(map) + 88, left, map.title), map_(map),
+        cell_x_(side / double(map.xs.size())), cell_y_(side / double(map.ys.size())) {
+    const std::size_t columns = columns_for(map.panels.size());
+    for (std::size_t p = 0; p < map.panels.size(); ++p) {
+      const double x = left + double(p % columns) * pitch_x, y = top + double(p / columns) * pitch_y;
+      draw_panel(map.panels[p], {x, y, x + side, y + side}, p % columns == 0);
     }
-    legend(height - below + 16);
-    return out_ + "</svg>\n";
+    name_lines(name_kinds(bottom_of(map) + 8) + 24);
   }
 
  private:
-  template <typename... Args> void put(fmt::format_string<Args...> format, Args&&... args) {
-    out_ += fmt::format(format, std::forward<Args>(args)...);
-  }
-
-  void panel(std::size_t index, double x0, double y0) {
-    const MapPanel& panel = map_.panels[index];
-    put("<text x=\"{}\" y=\"{}\" font-size=\"15\" font-weight=\"600\">{}</text>\n", x0, y0 - 12,
-        xml(panel.title));
-    put("<clipPath id=\"panel{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", index,
-        x0, y0, side, side);
+  void draw_panel(const MapPanel& panel, const Box& box, bool leftmost) {
     for (std::size_t y = 0; y < panel.cells.size(); ++y)
       for (std::size_t x = 0; x < panel.cells[y].size(); ++x)
-        cell(panel.cells[y][x], x0 + double(x) * cell_x_, y0 + side - double(y + 1) * cell_y_);
-    for (std::size_t k = 0; k < panel.lines.size(); ++k) line(panel.lines[k], k, index, x0, y0);
-    ticks(x0, y0, index % columns_ == 0);
+        draw_cell(panel.cells[y][x], box.left + double(x) * cell_x_, box.bottom - double(y + 1) * cell_y_);
+    put(R"(<svg x="{}" y="{}" width="{}" height="{}">)", box.left, box.top, side, side); // cuts lines off
+    for (std::size_t k = 0; k < panel.lines.size(); ++k) draw_line(panel.lines[k], dashes[k % 3]);
+    put("</svg>");
+    frame(box, panel.title, map_.x_label, leftmost ? map_.y_label : "");
+    draw_numbers(box, leftmost);
   }
 
-  void cell(const MapCell& c, double x, double y) {
-    put("<rect class=\"cell\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" "
-        "stroke=\"#fff\" "
-        "data-command=\"{}\"><title>{}</title></rect>\n",
-        x, y, cell_x_, cell_y_, map_.kinds[c.kind].colour, xml(c.command), xml(c.tip + '\n' + c.command));
+  void draw_cell(const MapCell& cell, double x, double y) {
+    put(R"(<rect class="cell" x="{}" y="{}" width="{}" height="{}" fill="{}" stroke="#fff" data-command="{}">)"
+        "<title>{}</title></rect>",
+        x, y, cell_x_, cell_y_, map_.kinds[cell.kind].colour, escaped(cell.command),
+        escaped(cell.tip + '\n' + cell.command));
   }
 
-  void line(const MapLine& l, std::size_t k, std::size_t index, double x0, double y0) {
-    std::string path;
-    for (const auto& [x, y] : l.points)
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x0 + place_among(map_.xs, x) * cell_x_,
-                          y0 + side - place_among(map_.ys, y) * cell_y_);
-    if (path.empty()) return;
-    for (const bool halo : {true, false})
-      put("<path clip-path=\"url(#panel{})\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
-          "stroke-dasharray=\"{}\"><title>{}</title></path>\n",
-          index, path, halo ? "#fff" : "#111", halo ? 4.5 : 1.8, halo ? "none" : strokes[k % 3], xml(l.name));
+  // Dark on a light halo: seen on any colour.
+  void draw_line(const MapLine& line, const char* dashed) {
+    Points points;
+    for (const auto& [x, y] : line.points)
+      points.emplace_back(place_among(map_.xs, x) * cell_x_, side - place_among(map_.ys, y) * cell_y_);
+    const std::string path = path_through(points);
+    put(R"(<path d="{}" fill="none" stroke="#fff" stroke-width="4.5"/>)", path);
+    put(R"(<path d="{}" fill="none" stroke="#111" stroke-width="1.8" stroke-dasharray="{}"><title>{}</title></path>)",
+        path, dashed, escaped(line.name));
   }
 
-  // So many numbers as can be read.
-  void ticks(double x0, double y0, bool outermost) {
-    const std::size_t every_x = 1 + map_.xs.size() / 9, every_y = 1 + map_.ys.size() / 16;
-    for (std::size_t k = 0; k < map_.xs.size(); k += every_x)
-      put("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.3g}</text>\n",
-          x0 + (double(k) + 0.5) * cell_x_, y0 + side + 17, map_.xs[k]);
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"13\">{}</text>\n", x0 + side / 2,
-        y0 + side + 38, xml(map_.x_label));
-    if (!outermost) return;
-    for (std::size_t k = 0; k < map_.ys.size(); k += every_y)
-      put("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>\n", x0 - 7,
-          y0 + side - (double(k) + 0.5) * cell_y_ + 4, map_.ys[k]);
-    put("<text transform=\"translate(24 {:.1f}) rotate(-90)\" text-anchor=\"middle\" "
-        "font-size=\"13\">{}</text>\n",
-        y0 + side / 2, xml(map_.y_label));
+  // No more than can be read.
+  void draw_numbers(const Box& box, bool leftmost) {
+    for (std::size_t k = 0; k < map_.xs.size(); k += 1 + map_.xs.size() / 9)
+      number_x(box, box.left + (double(k) + 0.5) * cell_x_, fmt::format("{:.3g}", map_.xs[k]));
+    for (std::size_t k = 0; leftmost && k < map_.ys.size(); k += 1 + map_.ys.size() / 16)
+      number_y(box, box.bottom - (double(k) + 0.5) * cell_y_, fmt::format("{:.3g}", map_.ys[k]));
   }
 
-  void legend(double y) {
+  /// Returns where its last row stands.
+  double name_kinds(double y) {
     double x = left;
     for (const KindOfCell& kind : map_.kinds) {
-      if (x > left + double(columns_) * (side + gap) - 140) x = left, y += 22;
-      put("<rect x=\"{0}\" y=\"{1}\" width=\"14\" height=\"14\" fill=\"{2}\"/><text x=\"{3}\" "
-          "y=\"{4}\">{5}</text>\n",
-          x, y, kind.colour, x + 20, y + 11.5, xml(kind.name));
-      x += 44 + 7.0 * static_cast<double>(kind.name.size());
+      if (x > right_of(map_) - 140) x = left, y += 22;
+      x = name(x, y, kind.colour, kind.name);
     }
-    lines_legend(y + 24);
+    return y;
   }
 
-  bool is_inside(const MapLine& line) const {
-    const auto inside = [](const std::vector<double>& values, double value) {
-      const double place = place_among(values, value);
-      return place >= 0 && place <= static_cast<double>(values.size());
-    };
-    return std::any_of(line.points.begin(), line.points.end(), [&](const auto& point) {
-      return inside(map_.xs, point.first) && inside(map_.ys, point.second);
-    });
-  }
-
-  /// Somewhere in the map; a legend must not speak of a line that nobody sees.
-  bool is_seen(const std::string& name) const {
-    for (const MapPanel& panel : map_.panels)
-      for (const MapLine& line : panel.lines)
-        if (line.name == name && is_inside(line)) return true;
-    return false;
-  }
-
-  void lines_legend(double y) {
+  // A legend must not speak of a line that nobody sees.
+  void name_lines(double y) {
     double x = left;
     std::set<std::string> told;
     for (const MapPanel& panel : map_.panels)
       for (std::size_t k = 0; k < panel.lines.size(); ++k) {
-        if (panel.lines[k].points.empty() || !told.insert(panel.lines[k].name).second) continue;
-        const bool seen = is_seen(panel.lines[k].name);
-        const std::string name = panel.lines[k].name + (seen ? "" : " (beyond the map)");
-        put("<path d=\"M{} {}h26\" stroke=\"#111\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"/><text "
-            "x=\"{}\" "
-            "y=\"{}\">{}</text>\n",
-            x, y + 7, strokes[k % 3], x + 33, y + 11.5, xml(name));
-        x += 60 + 7.0 * static_cast<double>(name.size());
+        std::string words = panel.lines[k].name;
+        if (panel.lines[k].points.empty() || !told.insert(words).second) continue;
+        if (!is_seen(words)) words += " (beyond the map)";
+        put(R"(<path d="M{} {}h26" stroke="#111" stroke-width="1.8" stroke-dasharray="{}"/>)", x, y - 5,
+            dashes[k % 3]);
+        text(x + 33, y, words);
+        x += 60 + 7.2 * static_cast<double>(words.size());
       }
   }
 
+  bool is_seen(const std::string& line_name) const {
+    const auto inside = [](const std::vector<double>& values, double value) {
+      const double place = place_among(values, value);
+      return place >= 0 && place <= static_cast<double>(values.size());
+    };
+    for (const MapPanel& panel : map_.panels)
+      for (const MapLine& line : panel.lines)
+        for (const auto& [x, y] : line.points)
+          if (line.name == line_name && inside(map_.xs, x) && inside(map_.ys, y)) return true;
+    return false;
+  }
+
   const CellMap& map_;
-  std::size_t columns_ = 1;
-  double cell_x_ = 1, cell_y_ = 1;
-  std::string out_;
+  const double cell_x_, cell_y_;
 };
 
 } // namespace
@@ -158,7 +132,7 @@ double place_among(const std::vector<double>& values, double value) {
 }
 
 std::string svg_of(const CellMap& map) {
-  return Drawing(map).text();
+  return Drawing(map).finish();
 }
 
 } // namespace hopmesh::pictures

@@ -20,7 +20,7 @@ struct Expansion {
 /// How a compressed spring's curvature across itself, which is negative, is taken.
 enum class Compressed { as_it_is, as_none };
 
-/// The same of a constant pull: T sqrt(l^2 + floor^2), whose curvature is nowhere negative.
+/// The expansion of a constant pull: T sqrt(l^2 + floor^2), whose curvature is nowhere negative.
 inline Expansion expand_tension(double T, double floor, double h, const Vector3& u) {
   const double smoothed = std::sqrt(u.squaredNorm() + floor * floor);
   const Vector3 w = u / smoothed;

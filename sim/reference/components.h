@@ -71,8 +71,4 @@ inline double spring_term(const scene::Mesh& mesh, const scene::Spring& spring, 
   return spring.weight * stretch * stretch;
 }
 
-/// The two formulations; each leaves V and the count of steps to advance().
-Step advance_probe(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
-Step advance_incremental(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
-
 } // namespace hopmesh::reference

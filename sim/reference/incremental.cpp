@@ -1,4 +1,4 @@
-// One time step of the incremental potential (docs/method/theory.md, section 4): backward Euler and BDF2 as
+// A time step of the incremental potential (docs/method/theory.md, section 4): backward Euler and BDF2 as
 // the minimum of inertia and springs, relaxed by the network at a scale that suits its outputs; the static
 // step as the minimum of springs and load alone.
 #include "sim/reference/assembly.h"
@@ -136,10 +136,6 @@ void stay_below(const scene::Mesh& mesh, const Increment& increment, Vector& cha
     if (potential(mesh, increment, change, size) - start <= rounding * size) return;
 }
 
-bool two_steps(const Motion& motion, const State& state) {
-  return motion.rule == Rule::bdf2 && state.step > 0;
-}
-
 // BDF2's v is the derivative of the parabola through three positions.
 void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increment, const Vector& change,
           State& state) {
@@ -147,7 +143,7 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
     if (mesh.pinned[node]) continue;
     const Vector3 next = at(increment.predicted, node) + increment.h * at(change, node);
-    const Vector3 slope = two_steps(motion, state)
+    const Vector3 slope = increment.two_steps
                               ? Vector3(3 * next - 4 * at(x, node) + at(state.previous_position, node)) / 2
                               : Vector3(next - at(x, node));
     at(state.velocity, node) =
@@ -155,7 +151,7 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
     at(state.position, node) = next;
   }
   state.acceleration = change;
-  if (motion.rule == Rule::bdf2) state.previous_position = x, state.previous_velocity = v;
+  if (motion.formulation->looks_back) state.previous_position = x, state.previous_velocity = v;
 }
 
 // Acceleration of a free node by what is no spring.
@@ -164,6 +160,31 @@ Vector3 force_on(const scene::Mesh& mesh, const Motion& motion, Eigen::Index nod
   if (motion.node_force.size() > 0) force += at(motion.node_force, node);
   if (mesh.planar) force.y() = 0;
   return force;
+}
+
+// Backward Euler's; with `two_steps` BDF2's.
+Increment implicit_increment(const scene::Mesh& mesh, const Motion& motion, const State& state,
+                             bool two_steps) {
+  const double tau = two_steps ? motion.time_step * 2 / 3 : motion.time_step, slowed = 1 + motion.drag * tau;
+  Increment result{state.position, tau * tau / 2, motion.mass * slowed / (tau * tau), {}, two_steps};
+  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
+    if (mesh.pinned[node]) continue;
+    Vector3 x = at(state.position, node), v = at(state.velocity, node);
+    if (two_steps) {
+      x = (4 * x - at(state.previous_position, node)) / 3;
+      v = (4 * v - at(state.previous_velocity, node)) / 3;
+    }
+    at(result.predicted, node) = x + tau / slowed * (v + tau * force_on(mesh, motion, node));
+  }
+  return result;
+}
+
+Increment backward_euler_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+  return implicit_increment(mesh, motion, state, false);
+}
+
+Increment bdf2_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+  return implicit_increment(mesh, motion, state, state.step > 0);
 }
 
 Increment static_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
@@ -176,20 +197,7 @@ Increment static_increment(const scene::Mesh& mesh, const Motion& motion, const 
 } // namespace
 
 Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
-  if (motion.rule == Rule::statics) return static_increment(mesh, motion, state);
-  const bool two = two_steps(motion, state);
-  const double tau = two ? motion.time_step * 2 / 3 : motion.time_step, slowed = 1 + motion.drag * tau;
-  Increment result{state.position, tau * tau / 2, motion.mass * slowed / (tau * tau), {}};
-  for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
-    if (mesh.pinned[node]) continue;
-    Vector3 x = at(state.position, node), v = at(state.velocity, node);
-    if (two) {
-      x = (4 * x - at(state.previous_position, node)) / 3;
-      v = (4 * v - at(state.previous_velocity, node)) / 3;
-    }
-    at(result.predicted, node) = x + tau / slowed * (v + tau * force_on(mesh, motion, node));
-  }
-  return result;
+  return motion.formulation->increment(mesh, motion, state);
 }
 
 double energy(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V) {
@@ -218,20 +226,31 @@ Network network(const scene::Mesh& mesh, const Increment& increment, double scal
   return assembly.network(V0);
 }
 
-Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale) {
+Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale) {
   Vector V0 = Vector::Zero(components(mesh) * nodes_of(mesh));
-  if (motion.rule == Rule::statics) return V0;
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     if (!mesh.pinned[node]) set_output(mesh, V0, node, at(state.acceleration, node) / scale);
   return V0;
 }
 
-Step advance_incremental(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+namespace {
+
+// A static step starts where it stands.
+Vector no_outputs(const scene::Mesh& mesh, const State&, double) {
+  return Vector::Zero(components(mesh) * nodes_of(mesh));
+}
+
+Network network_about(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale,
+                      const Vector& V0) {
+  return network(mesh, increment(mesh, motion, state), scale, V0);
+}
+
+Step advance_once(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
   const Increment about = increment(mesh, motion, state);
   Step step;
   step.predicted = about.predicted;
   step.scale = first_scale(mesh, about, state);
-  step.relaxation.V = expansion_point(mesh, motion, state, step.scale);
+  step.relaxation.V = motion.formulation->start(mesh, state, step.scale);
   Relaxing relaxing(mesh, motion, order, about);
   for (std::uint32_t expansion = 0; expansion < motion.expansions; ++expansion) relaxing.relax_in_range(step);
   Vector change = Vector::Zero(3 * nodes_of(mesh));
@@ -241,5 +260,12 @@ Step advance_incremental(const scene::Mesh& mesh, const Motion& motion, const Or
   move(mesh, motion, about, change, state);
   return step;
 }
+
+} // namespace
+
+const Formulation backward_euler{"backward_euler", false,         backward_euler_increment,
+                                 expansion_point,  network_about, advance_once};
+const Formulation bdf2{"bdf2", true, bdf2_increment, expansion_point, network_about, advance_once};
+const Formulation statics{"static", false, static_increment, no_outputs, network_about, advance_once};
 
 } // namespace hopmesh::reference

@@ -1,11 +1,13 @@
 // The algorithm in double precision with Eigen: the readable definition, written from docs/method/theory.md
-// alone. It shares no arithmetic with the firmware or the array; that they agree is evidence.
+// alone. The reference shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
+#include "rtl_model/spec/array_spec.h"
 #include "sim/scene/mesh.h"
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
+#include <string_view>
 
 namespace hopmesh::reference {
 
@@ -28,18 +30,13 @@ struct Relaxation {
   bool converged = false;
 };
 
-/// How an output follows from its sum s: a step R s / N (paper eqs. 9 to 12), or its sign (paper eq. 3),
-/// where a sum of zero leaves it as it is.
-enum class Output { modified, binary };
-
-/// What the outputs mean: directions (the paper), accelerations of an implicit step, or displacements towards
-/// the least potential energy.
-enum class Rule { probe, backward_euler, bdf2, statics };
+struct Formulation;
+extern const Formulation probe, backward_euler, bdf2, statics;
 
 struct Motion {
-  Rule rule = Rule::probe;
-  Output output = Output::modified;
-  double mass = 1, drag = 0; ///< incremental: kg of a node; 1/s
+  const Formulation* formulation = &probe;
+  spec::Output output = spec::Output::modified;
+  double mass = 1, drag = 0; ///< kg of a node; 1/s
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
   Eigen::Vector3d force;
@@ -55,12 +52,12 @@ Motion motion_of(const scene::Scene& scene);
 /// acceleration is what the springs added to the prediction, da = sigma V; in a static step, how far it went.
 struct State {
   Vector position, velocity, acceleration;
-  Vector previous_position, previous_velocity; ///< a step before; BDF2 only, else empty
+  Vector previous_position, previous_velocity; ///< a step before, for who looks back; else empty
   Vector V; ///< [components * nodes] rest state of the step before; zero at first
   std::uint64_t step = 0;
 };
 
-State initial_state(const scene::Mesh& mesh, Rule rule = Rule::probe);
+State initial_state(const scene::Mesh& mesh, const Formulation& formulation = probe);
 
 // ---- probe (docs/method/theory.md, sections 1, 2, 4)
 
@@ -80,27 +77,29 @@ Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& pre
 
 /// What one step minimises: inertia about a prediction, and the springs.
 struct Increment {
-  Vector predicted; ///< C, [3 * nodes]
-  double h;         ///< x = C + h da, s^2
-  double inertia;   ///< of one node, kg/s^2; 0 in a static step
-  Vector load;      ///< static step: newtons on every free node, [3 * nodes]; else empty, C knows them
+  Vector predicted;       ///< C, [3 * nodes]
+  double h;               ///< x = C + h da, s^2
+  double inertia;         ///< of one node, kg/s^2; 0 in a static step
+  Vector load = {};       ///< static step: newtons on every free node, [3 * nodes]; else empty, C knows them
+  bool two_steps = false; ///< BDF2, with a step behind it
 };
 Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state);
 /// Phi(V) at outputs that stand for da = scale V; less the work of the load in a static step.
 double energy(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V);
 /// Its second-order expansion about V0, with compressed springs counted convex: W is negative semi-definite.
 Network network(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V0);
-/// da of the step before over the scale; 0 in a static step.
-Vector expansion_point(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale);
+/// da of the step before over the scale.
+Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale);
 
 // ---- both
 
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
-/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more
-/// than threshold in a sweep, or max_sweeps.
+/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]): steps R s / N (paper eqs. 9 to
+/// 12), or signs of s where outputs are binary (paper eq. 3), until no output moves by more than threshold in
+/// a sweep, or max_sweeps.
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, Output output = Output::modified);
+                 std::uint32_t max_sweeps, spec::Output output = spec::Output::modified);
 /// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
 double kkt_violation(const Network& network, const Vector& V);
 
@@ -113,7 +112,24 @@ struct Step {
   Relaxation relaxation;
 };
 
-/// One whole step of docs/method/theory.md, section 4.
+/// A formulation of the time step (docs/method/theory.md, section 4).
+struct Formulation {
+  std::string_view name; ///< in scene files
+  bool looks_back;       ///< previous_position and previous_velocity are kept for it
+  /// What a step minimises, trying scales until one fits; null in the probe.
+  Increment (*increment)(const scene::Mesh& mesh, const Motion& motion, const State& state);
+  /// V0 of a step's first expansion.
+  Vector (*start)(const scene::Mesh& mesh, const State& state, double scale);
+  /// What a step from this state relaxes about V0.
+  Network (*network)(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale,
+                     const Vector& V0);
+  /// A step, but for the state's V and count of steps.
+  Step (*advance)(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+};
+
+inline constexpr const Formulation* formulations[] = {&probe, &backward_euler, &bdf2, &statics};
+
+/// A whole step of docs/method/theory.md, section 4.
 Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

@@ -41,10 +41,10 @@ double sign(double s, double V) {
   return s > 0 ? 1 : s < 0 ? -1 : V;
 }
 
-/// One network, ready to sweep: everything a sweep needs is allocated here.
+/// A network, ready to sweep: everything a sweep needs is allocated here.
 class Sweeper {
  public:
-  Sweeper(const Network& network, const Order& order, Vector& V, Output output)
+  Sweeper(const Network& network, const Order& order, Vector& V, spec::Output output)
       : network_(network), order_(order), V_(V), N_(normalisers(network)), next_(V.size()), output_(output) {}
 
   /// Fires every neuron of the order once; the largest |dV|.
@@ -59,7 +59,7 @@ class Sweeper {
   double fire_together(const std::vector<std::uint32_t>& phase) {
     for (const std::uint32_t neuron : phase) {
       const double s = input_sum(network_, V_, neuron);
-      next_[neuron] = output_ == Output::binary ? sign(s, V_[neuron]) : fire(s, N_[neuron], V_[neuron]);
+      next_[neuron] = output_ == spec::Output::binary ? sign(s, V_[neuron]) : fire(s, N_[neuron], V_[neuron]);
     }
     double largest = 0;
     for (const std::uint32_t neuron : phase) {
@@ -73,13 +73,13 @@ class Sweeper {
   const Order& order_;
   Vector& V_;
   Vector N_, next_;
-  const Output output_;
+  const spec::Output output_;
 };
 
 } // namespace
 
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, Output output) {
+                 std::uint32_t max_sweeps, spec::Output output) {
   Relaxation result;
   Sweeper sweeper(network, order, V, output);
   while (result.sweeps < max_sweeps && !result.converged) {
@@ -90,8 +90,9 @@ Relaxation relax(const Network& network, const Order& order, Vector V, double th
   return result;
 }
 
-// How far a step of u = s / N along the negative gradient gets before the box stops it. It is 0 exactly where
-// the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/method/theory.md, section 3).
+// How far a step of u = s / N along the negative gradient gets before the box stops it. That is 0 exactly
+// where the KKT conditions hold: s = 0, or V at a bound with s pushing outward (docs/method/theory.md,
+// section 3).
 double kkt_violation(const Network& network, const Vector& V) {
   const Vector N = normalisers(network);
   double largest = 0;

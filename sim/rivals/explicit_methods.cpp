@@ -1,5 +1,5 @@
 // Methods that only look: symplectic Euler, velocity Verlet, the classical Runge-Kutta method of order 4.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 
 namespace hopmesh::rivals {
 namespace {

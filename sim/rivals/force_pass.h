@@ -1,4 +1,4 @@
-// One pass over all springs: forces or energy. Springs whose nodes are equally far apart in number stand in
+// A pass over all springs: forces or energy. Springs whose nodes are equally far apart in number stand in
 // rows (row r of a grid, whole grids of them), so a pass reads and writes neighbouring numbers and several
 // springs share one instruction; the rest go through their node numbers.
 #pragma once

@@ -1,11 +1,11 @@
 // Backward Euler and BDF2, each step solved by Newton's method; drag implicit in both.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 #include "sim/rivals/newton.h"
 
 namespace hopmesh::rivals {
 namespace {
 
-/// Both rules read x = past_x + b v, v = past_v + b (F(x) / m + force - c v); they differ in the past and in
+/// Each rule reads x = past_x + b v, v = past_v + b (F(x) / m + force - c v); they differ in the past and in
 /// b.
 class ImplicitRule : public Method {
  public:

@@ -2,7 +2,7 @@
 // method.
 #pragma once
 
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 #include "sim/rivals/stiffness.h"
 
 #include <Eigen/SparseCholesky>

@@ -2,7 +2,7 @@
 // length along its present direction (local) and solving for the nodes (global) is the step -A^-1 gradient,
 // because A x - (what the projected springs ask for) is the gradient itself: one force pass is the whole
 // local part.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 #include "sim/rivals/node_solver.h"
 
 namespace hopmesh::rivals {

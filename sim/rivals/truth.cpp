@@ -2,7 +2,7 @@
 #include "sim/rivals/truth.h"
 
 #include "sim/input/input_error.h"
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 
 #include <cmath>
 #include <cvode/cvode.h>

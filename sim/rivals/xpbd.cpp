@@ -1,6 +1,6 @@
 // Extended position-based dynamics: substeps of backward Euler, each spring a constraint of compliance 1/k
 // met in turn. Springs of one colour share no node, so a colour's springs are computed together.
-#include "sim/rivals/methods.h"
+#include "sim/rivals/all_integrators.h"
 
 #include <cmath>
 

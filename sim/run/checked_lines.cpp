@@ -1,6 +1,7 @@
 #include "sim/run/checked_lines.h"
 
-#include <charconv>
+#include "sim/input/number.h"
+
 #include <fmt/format.h>
 #include <xxhash.h>
 
@@ -14,24 +15,7 @@ std::uint64_t check_of(std::string_view line, std::uint64_t before) {
   return XXH64(line.data(), line.size(), before);
 }
 
-template <class Number, class... Base> bool parse_all(std::string_view text, Number& value, Base... base) {
-  const auto [stop, failure] = std::from_chars(text.data(), text.data() + text.size(), value, base...);
-  return failure == std::errc() && stop == text.data() + text.size();
-}
-
 } // namespace
-
-bool parse(std::string_view text, std::uint64_t& value, int base) {
-  return parse_all(text, value, base);
-}
-
-bool parse(std::string_view text, std::int64_t& value) {
-  return parse_all(text, value);
-}
-
-bool parse(std::string_view text, double& value) {
-  return parse_all(text, value);
-}
 
 std::string_view first_word(std::string_view& text) {
   const std::size_t end = text.find(' ');
@@ -77,7 +61,7 @@ std::string_view CheckedLineReader::value(const std::string& key) {
 std::uint64_t CheckedLineReader::count(const std::string& key) {
   const std::string_view text = value(key);
   std::uint64_t number = 0;
-  if (!parse(text, number)) throw error(key, input::in_quotes(text), "a number");
+  if (!input::parse_number(text, number)) throw error(key, input::in_quotes(text), "a number");
   return number;
 }
 

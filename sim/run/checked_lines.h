@@ -21,7 +21,7 @@ class CheckedLines {
   std::uint64_t check_ = 0;
 };
 
-/// Reads them in order. Everything that is not as it was written is a scene::InputError with file and line.
+/// Reads them in order. Everything that is not as it was written is a input::InputError with file and line.
 class CheckedLineReader {
  public:
   /// Keeps both; `text` may go on behind the lines.
@@ -29,7 +29,7 @@ class CheckedLineReader {
 
   /// The next line, which must have this key.
   std::string_view value(const std::string& key);
-  /// The same as a number.
+  /// The next line, which must have this key and a number.
   std::uint64_t count(const std::string& key);
   bool next_is(const std::string& key) const;
   /// Of the line that was read last.
@@ -44,11 +44,6 @@ class CheckedLineReader {
   std::uint64_t check_ = 0;
   int line_ = 0;
 };
-
-/// A number in all of its digits, base 10 or 16; false where the text is none.
-bool parse(std::string_view text, std::uint64_t& value, int base = 10);
-bool parse(std::string_view text, std::int64_t& value);
-bool parse(std::string_view text, double& value);
 
 /// Up to the next space; takes it off the text.
 std::string_view first_word(std::string_view& text);

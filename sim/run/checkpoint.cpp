@@ -2,6 +2,7 @@
 
 #include "sim/files/csv.h"
 #include "sim/files/output_file.h"
+#include "sim/input/number.h"
 #include "sim/input/whole_file.h"
 #include "sim/run/checked_lines.h"
 #include "version.h"
@@ -113,7 +114,8 @@ class Reading {
 
   template <class Number, class... Base>
   void take(const std::string& key, std::string_view text, Number& value, Base... base) const {
-    if (!parse(text, value, base...)) throw lines_.error(key, input::in_quotes(text), "a number");
+    if (!input::parse_number(text, value, base...))
+      throw lines_.error(key, input::in_quotes(text), "a number");
   }
 
   void expect(const std::string& key, const std::string& wanted) {

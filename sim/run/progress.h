@@ -28,7 +28,7 @@ class Progress : public StepSink {
   std::chrono::steady_clock::time_point began_, drawn_;
 };
 
-/// The same for things that are counted; `total` 0: nobody knows how many.
+/// A bar for things that are counted; `total` 0: nobody knows how many.
 class CountProgress {
  public:
   CountProgress(const char* what, std::uint64_t total);

@@ -7,18 +7,17 @@
 #include "sim/pictures/report.h"
 #include "sim/run/array_info.h"
 #include "sim/run/run_picture.h"
-#include "sim/run/step_table.h"
+#include "sim/run/run_totals.h"
 #include "version.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 namespace hopmesh::run {
 
 using Json = nlohmann::ordered_json;
+using levels::Subject;
 
 namespace {
 
@@ -37,57 +36,18 @@ std::optional<files::GreyPicture> image_of(const scene::Scene& scene) {
   return scene.force.image ? std::optional(levels::picture_of(scene)) : std::nullopt;
 }
 
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-const char* name_of(Outcome outcome) {
-  return outcome == Outcome::finished   ? "finished"
-         : outcome == Outcome::diverged ? "diverged"
-                                        : "interrupted";
-}
-
-template <typename Figure> double median(const std::vector<levels::StepRow>& rows, Figure figure) {
-  std::vector<double> values;
-  for (const levels::StepRow& row : rows)
-    if (row.error) values.push_back(figure(*row.error));
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+void add_totals(Json& json, levels::Subject subject, const StepRows& rows) {
+  for (const RunTotal& t : totals_about(subject, rows))
+    json[t.total->key] = t.is_count ? Json(static_cast<std::uint64_t>(t.value)) : Json(t.value);
 }
 
 } // namespace
 
-Totals totals_of(const RunResult& result, const levels::BuiltMesh& mesh) {
-  Totals t;
-  for (const levels::StepRow& row : result.rows) {
-    t.steps += 1;
-    t.sweeps += row.sweeps;
-    t.cycles += row.cycles;
-    t.bus_cycles += row.bus_cycles;
-    t.clipped += row.clipped;
-    t.unconverged += !row.converged;
-    t.worst_strain = std::max(t.worst_strain, row.max_strain);
-    if (!row.error) continue;
-    t.largest_error = std::max(t.largest_error, row.error->largest_output);
-    t.largest_network_error = std::max(t.largest_network_error, row.error->network);
-    t.worst_energy_gap = std::max(t.worst_energy_gap, row.error->energy_gap);
-  }
-  t.median_error = median(result.rows, [](const levels::ReferenceError& e) { return e.rms_output; });
-  t.median_energy_gap = median(result.rows, [](const levels::ReferenceError& e) { return e.energy_gap; });
-  t.updates = t.sweeps * mesh.topology().neurons();
-  t.peak_memory_mb = peak_memory_mb();
-  return t;
-}
-
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
                    const levels::Motion& motion)
-    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh), mesh_hash_(run::mesh_hash(mesh.mesh())),
-      image_(image_of(facts.inputs.scene)), lock_(folder),
-      positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_columns()) {
+    : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh),
+      mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)), lock_(folder),
+      positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_header()) {
   if (facts.level->has_codes()) outputs_.emplace(folder / "outputs_raw.npy", code_shape());
   positions_.append(motion.positions());
 }
@@ -98,7 +58,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, c
       mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)),
       lock_(std::move(streams.lock)),
       positions_(folder / "positions.npy", place_shape(), std::move(streams.positions)),
-      table_(folder / "steps.csv", step_columns(), std::move(streams.table)) {
+      table_(folder / "steps.csv", step_header(), std::move(streams.table)) {
   if (streams.outputs)
     outputs_.emplace(folder / "outputs_raw.npy", code_shape(), std::move(*streams.outputs));
 }
@@ -168,34 +128,31 @@ void RunFiles::discard(const std::string& name) const {
 }
 
 std::string RunFiles::statistics(const RunResult& result, const levels::Motion& motion) const {
-  const Totals t = totals_of(result, mesh_);
+  const StepRows& rows = result.rows;
   const double s = result.wall_seconds;
+  const std::uint64_t updates = neuron_updates(rows, mesh_);
+  const auto a_second = [s](std::uint64_t count) { return Json(s > 0 ? static_cast<double>(count) / s : 0); };
   Json json{{"scene", facts_.inputs.scene.name},
             {"level", facts_.level->name},
             {"outcome", name_of(result.outcome)},
             {"sentence", result.sentence},
             {"nodes", mesh_.nodes()},
             {"neurons", mesh_.topology().neurons()},
-            {"steps", t.steps},
-            {"sweeps", t.sweeps},
-            {"steps_stopped_by_max_sweeps", t.unconverged},
-            {"neuron_updates", t.updates},
-            {"wall_seconds", s},
-            {"steps_per_second", s > 0 ? static_cast<double>(t.steps) / s : 0},
-            {"neuron_updates_per_second", s > 0 ? static_cast<double>(t.updates) / s : 0},
-            {"largest_strain", t.worst_strain},
-            {"peak_memory_mb", t.peak_memory_mb}};
+            {"steps", rows.size()}};
+  add_totals(json, Subject::relaxation, rows);
+  json["neuron_updates"] = updates;
+  json["wall_seconds"] = s;
+  json["steps_per_second"] = a_second(rows.size());
+  json["neuron_updates_per_second"] = a_second(updates);
+  add_totals(json, Subject::motion, rows);
+  json["peak_memory_mb"] = peak_memory_mb();
   if (facts_.level->has_codes()) {
-    json["simulated_cycles"] = t.cycles;
-    json["bus_cycles"] = t.bus_cycles;
-    json["simulated_cycles_per_second"] = s > 0 ? static_cast<double>(t.cycles) / s : 0;
-    json["clipped"] = t.clipped;
-    json["against_reference"] = {{"median_output_error_rms", t.median_error},
-                                 {"median_energy_gap", t.median_energy_gap},
-                                 {"largest_output_error", t.largest_error},
-                                 {"largest_energy_gap", t.worst_energy_gap},
-                                 {"largest_network_error", t.largest_network_error}};
-    if (result.rows.empty() || !result.rows.front().error) json["against_reference"] = nullptr;
+    add_totals(json, Subject::clock, rows);
+    json["simulated_cycles_per_second"] =
+        a_second(count_of(rows, &levels::StepRow::cycles, levels::Summary::sum));
+    add_totals(json, Subject::network, rows);
+    json["against_reference"] = nullptr;
+    if (is_judged(rows)) add_totals(json["against_reference"], Subject::reference, rows);
     for (const levels::SignalRange& r : motion.ranges())
       json["ranges"].push_back({{"signal", r.signal},
                                 {"format", r.format.text()},

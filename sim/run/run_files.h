@@ -4,29 +4,11 @@
 #include "sim/files/csv.h"
 #include "sim/files/grey_picture.h"
 #include "sim/files/npy.h"
-#include "sim/levels/level.h"
 #include "sim/run/resume.h"
+#include "sim/run/run_facts.h"
 #include "sim/run/simulation.h"
 
 namespace hopmesh::run {
-
-/// What a run was, beside its steps: everything that manifest, statistics and report say of it.
-struct RunFacts {
-  scene::Inputs inputs;
-  const levels::Level* level = nullptr; ///< never null
-  std::string command;                  ///< that repeats the run, but for its --steps
-  std::uint64_t asked_steps = 0;        ///< --steps; 0: as many as the scene says
-  bool check = false;                   ///< the reference is asked
-};
-
-/// Totals of a run, as printed and as kept in stats.json.
-struct Totals {
-  std::uint64_t steps = 0, sweeps = 0, cycles = 0, bus_cycles = 0, updates = 0, clipped = 0, unconverged = 0;
-  double worst_strain = 0, largest_error = 0, largest_network_error = 0, worst_energy_gap = 0;
-  double median_error = 0, median_energy_gap = 0; ///< of the steps: rms error of outputs, energy left
-  double peak_memory_mb = 0;
-};
-Totals totals_of(const RunResult& result, const levels::BuiltMesh& mesh);
 
 /// Streams positions.npy, outputs_raw.npy and steps.csv; nothing has its final name before finish(). Holds
 /// the folder against other runs.

@@ -1,5 +1,6 @@
 #include "sim/run/run_picture.h"
 
+#include "sim/files/npy.h"
 #include "sim/run/array_info.h"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 namespace hopmesh::run {
 
 namespace {
+
+using levels::Subject;
 
 void add_surface(const scene::Mesh& mesh, pictures::RunView& view) {
   view.nodes = mesh.nodes();
@@ -34,65 +37,63 @@ void add_frames(const std::filesystem::path& positions, double time_step, pictur
   }
 }
 
-void add_series(const RunFacts& facts, const std::vector<levels::StepRow>& rows, pictures::RunView& view) {
-  const auto add = [&](const char* name, const char* unit, auto value) {
-    pictures::Series series;
-    series.name = name;
-    series.unit = unit;
-    for (const levels::StepRow& row : rows) series.values.push_back(value(row));
-    view.series.push_back(std::move(series));
-  };
-  for (const levels::StepRow& row : rows) view.step_times.push_back(row.time);
-  const bool has_neurons = !rows.empty() && rows.front().sweeps > 0; // rivals have none
-  if (has_neurons) add("sweeps a step", "", [](const levels::StepRow& r) { return double(r.sweeps); });
-  if (facts.level->has_codes())
-    add("array cycles a step", "", [](const levels::StepRow& r) { return double(r.cycles); });
-  add("elastic energy", "J", [](const levels::StepRow& r) { return r.energy; });
-  add("kinetic energy", "J", [](const levels::StepRow& r) { return r.kinetic; });
-  add("largest strain", "%", [](const levels::StepRow& r) { return 100 * r.max_strain; });
-  if (has_neurons)
-    add("outputs at +1 or -1", "", [](const levels::StepRow& r) { return double(r.saturated); });
-  if (rows.empty() || !rows.front().error) return;
-  add("largest output error against the reference", "",
-      [](const levels::StepRow& r) { return r.error->largest_output; });
-  add("energy left above the reference's rest", "of its fall",
-      [](const levels::StepRow& r) { return r.error->energy_gap; });
+/// Rivals have no neurons, levels without codes no clock, and the reference is not always asked.
+bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& rows) {
+  switch (subject) {
+  case Subject::motion:
+    return true;
+  case Subject::relaxation:
+    return !rows.empty() && rows.front().sweeps > 0;
+  case Subject::clock:
+  case Subject::network:
+    return facts.level->has_codes();
+  case Subject::reference:
+    return is_judged(rows);
+  }
+  return false;
 }
 
-FigureTable run_table(const RunFacts& facts, const Totals& t, double seconds) {
-  const auto rate = [&](double count) { return seconds > 0 ? count / seconds : 0.0; };
+void add_totals(levels::Subject subject, const StepRows& rows, std::vector<pictures::Figure>& lines) {
+  for (const RunTotal& t : totals_about(subject, rows))
+    if (t.total->name) lines.push_back({t.total->name, t.text()});
+}
+
+FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels::BuiltMesh& mesh,
+                      double seconds) {
+  const auto sum = [&](std::uint64_t levels::StepRow::*figure) {
+    return count_of(rows, figure, levels::Summary::sum);
+  };
+  const auto rate = [&](std::uint64_t count) {
+    return seconds > 0 ? static_cast<double>(count) / seconds : 0.0;
+  };
   FigureTable table{"Run", {}};
-  auto& rows = table.second;
-  rows.push_back({"level", facts.level->name});
-  rows.push_back({"steps", grouped(t.steps)});
-  rows.push_back({"wall time", fmt::format("{:.2f} s", seconds)});
-  rows.push_back({"steps/s", fmt::format("{:.1f}", rate(static_cast<double>(t.steps)))});
-  if (t.sweeps > 0) {
-    rows.push_back({"sweeps", grouped(t.sweeps)});
-    rows.push_back({"steps stopped by max_sweeps", grouped(t.unconverged)});
-    rows.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(static_cast<double>(t.updates)))});
+  auto& lines = table.second;
+  lines.push_back({"level", facts.level->name});
+  lines.push_back({"steps", grouped(rows.size())});
+  lines.push_back({"wall time", fmt::format("{:.2f} s", seconds)});
+  lines.push_back({"steps/s", fmt::format("{:.1f}", rate(rows.size()))});
+  if (is_shown(Subject::relaxation, facts, rows)) {
+    add_totals(Subject::relaxation, rows, lines);
+    lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }
-  if (facts.level->has_codes()) {
-    const double hardware = static_cast<double>(t.cycles + t.bus_cycles) / facts.inputs.array.clock_mhz / 1e6;
-    rows.push_back(
-        {"simulated cycles", grouped(t.cycles) + " in the array, " + grouped(t.bus_cycles) + " on the bus"});
-    rows.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(static_cast<double>(t.cycles)))});
-    rows.push_back(
-        {"time on hardware", fmt::format("{:.3g} s at {} MHz", hardware, facts.inputs.array.clock_mhz)});
+  if (is_shown(Subject::clock, facts, rows)) {
+    const std::uint64_t array = sum(&levels::StepRow::cycles), bus = sum(&levels::StepRow::bus_cycles);
+    const double mhz = facts.inputs.array.clock_mhz, hardware = static_cast<double>(array + bus) / mhz / 1e6;
+    lines.push_back({"simulated cycles", grouped(array) + " in the array, " + grouped(bus) + " on the bus"});
+    lines.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(array))});
+    lines.push_back({"time on hardware", fmt::format("{:.3g} s at {} MHz", hardware, mhz)});
+    add_totals(Subject::clock, rows, lines);
   }
-  rows.push_back({"largest strain", fmt::format("{:.1f} %", 100 * t.worst_strain)});
-  rows.push_back({"peak memory", fmt::format("{:.0f} MB", t.peak_memory_mb)});
+  add_totals(Subject::motion, rows, lines);
+  lines.push_back({"peak memory", fmt::format("{:.0f} MB", peak_memory_mb())});
   return table;
 }
 
-FigureTable accuracy_table(const Totals& t) {
-  return {"Against the double reference, step by step",
-          {{"output error of a step", fmt::format("{:.3g} rms (median)", t.median_error)},
-           {"energy left of a step's fall", fmt::format("{:.3g} (median)", t.median_energy_gap)},
-           {"largest output error", fmt::format("{:.3g}", t.largest_error)},
-           {"largest energy left", fmt::format("{:.3g} of a step's fall", t.worst_energy_gap)},
-           {"largest weight or bias error", fmt::format("{:.2g} of the largest", t.largest_network_error)},
-           {"weights and biases clipped", grouped(t.clipped)}}};
+FigureTable accuracy_table(const StepRows& rows) {
+  FigureTable table{"Against the double reference, step by step", {}};
+  for (const Subject subject : {Subject::reference, Subject::network})
+    add_totals(subject, rows, table.second);
+  return table;
 }
 
 FigureTable range_table(const std::vector<levels::SignalRange>& ranges) {
@@ -118,11 +119,23 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   return shown;
 }
 
+std::vector<pictures::Series> series_of(const RunFacts& facts, const StepRows& rows,
+                                        const StepColumns& columns) {
+  std::vector<pictures::Series> all;
+  for (const levels::StepColumn& column : columns) {
+    if (!column.curve.name || !is_shown(column.subject, facts, rows)) continue;
+    pictures::Series& series = all.emplace_back();
+    series.name = column.curve.name, series.unit = column.curve.unit;
+    for (const levels::StepRow& row : rows)
+      series.values.push_back(column.curve.factor * value_of(row, column.figure).value_or(NAN));
+  }
+  return all;
+}
+
 std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh,
                                     const RunResult& result, const std::vector<levels::SignalRange>& ranges) {
-  const Totals t = totals_of(result, mesh);
-  std::vector<FigureTable> tables{run_table(facts, t, result.wall_seconds)};
-  if (!result.rows.empty() && result.rows.front().error) tables.push_back(accuracy_table(t));
+  std::vector<FigureTable> tables{run_table(facts, result.rows, mesh, result.wall_seconds)};
+  if (is_judged(result.rows)) tables.push_back(accuracy_table(result.rows));
   if (!ranges.empty()) tables.push_back(range_table(ranges));
   return tables;
 }
@@ -142,7 +155,8 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   view.manifest = std::move(manifest);
   add_surface(mesh.mesh(), view);
   add_frames(positions, scene.motion.time_step, view);
-  add_series(facts, result.rows, view);
+  for (const levels::StepRow& row : result.rows) view.step_times.push_back(row.time);
+  view.series = series_of(facts, result.rows);
   return view;
 }
 

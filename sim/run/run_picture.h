@@ -2,7 +2,11 @@
 #pragma once
 
 #include "sim/pictures/run_view.h"
-#include "sim/run/run_files.h"
+#include "sim/run/run_facts.h"
+#include "sim/run/run_totals.h"
+#include "sim/run/simulation.h"
+
+#include <filesystem>
 
 namespace hopmesh::run {
 
@@ -15,6 +19,10 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes);
 /// Frames are read back from positions.npy.
 pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
                               const std::filesystem::path& positions, std::string manifest);
+
+/// The curves of the columns, where the run has what they are about.
+std::vector<pictures::Series> series_of(const RunFacts& facts, const StepRows& rows,
+                                        const StepColumns& columns = step_columns());
 
 /// "The run", "Accuracy" and "Codes seen": the figures that the end of a run prints.
 std::vector<std::pair<std::string, std::vector<pictures::Figure>>>

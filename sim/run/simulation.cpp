@@ -18,7 +18,7 @@ std::string kept(std::uint64_t before) {
                      : fmt::format("The {} steps before it are kept.", before);
 }
 
-// One step; true while the run goes on.
+// A step; true while the run goes on.
 bool one_step(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
               RunResult& result) {
   const std::uint64_t step = result.rows.size();

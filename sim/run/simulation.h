@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/levels/motion.h"
+#include "sim/run/outcome.h"
 
 #include <atomic>
 
@@ -9,8 +10,6 @@ namespace hopmesh::run {
 
 /// A spring this many times its rest length ends a run: the motion has left the model.
 inline constexpr double most_stretch = 10.0;
-
-enum class Outcome { finished, interrupted, diverged };
 
 struct RunResult {
   Outcome outcome = Outcome::finished;

@@ -5,10 +5,23 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <fstream>
+#include <utility>
 
 namespace hopmesh::run {
 
 namespace {
+
+/// A cell from a row. Cells about the reference are empty where it was not asked.
+struct Write {
+  files::CsvWriter& table;
+  const levels::StepRow& row;
+
+  template <class Number> void operator()(Number levels::StepRow::*member) const { table.cell(row.*member); }
+  void operator()(levels::HashFigure hash) const { table.cell(fmt::format("{:016x}", row.*hash.member)); }
+  void operator()(double levels::ReferenceError::*member) const {
+    table.cell(row.error ? std::optional((*row.error).*member) : std::nullopt);
+  }
+};
 
 /// The cells of one line, taken from left to right.
 class Cells {
@@ -18,23 +31,19 @@ class Cells {
 
   bool empty() const { return rest_.empty() || rest_.front() == ','; }
 
-  template <class Number> void take(Number& value) {
+  template <class Number, class... Base>
+  void take(Number& value, const char* expected = "a number", Base... base) {
     const std::string_view cell = next();
-    const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    expect(failure == std::errc() && stop == cell.data() + cell.size(), cell, "a number");
+    const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value, base...);
+    expect(failure == std::errc() && stop == cell.data() + cell.size(), cell, expected);
   }
   void take(bool& value) {
     const std::string_view cell = next();
     expect(cell == "0" || cell == "1", cell, "0 or 1");
     value = cell == "1";
   }
-  void take_hash(std::uint64_t& value) {
-    const std::string_view cell = next();
-    const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value, 16);
-    expect(failure == std::errc() && stop == cell.data() + cell.size(), cell, "a hash");
-    expect(done_, rest_, "the end of the line");
-  }
   void pass_empty() { expect(next().empty(), "a value", "an empty cell"); }
+  void expect_end() const { expect(done_, rest_, "the end of the line"); }
 
  private:
   std::string_view next() {
@@ -55,53 +64,58 @@ class Cells {
   bool done_ = false;
 };
 
-levels::StepRow row_of(Cells cells) {
-  levels::StepRow row;
-  cells.take(row.step), cells.take(row.time), cells.take(row.sweeps), cells.take(row.cycles);
-  cells.take(row.energy), cells.take(row.kinetic), cells.take(row.max_strain), cells.take(row.saturated);
-  cells.take(row.converged), cells.take(row.max_stretch), cells.take(row.bus_cycles), cells.take(row.clipped);
-  if (!cells.empty()) {
-    levels::ReferenceError& error = row.error.emplace();
-    cells.take(error.largest_output), cells.take(error.rms_output);
-    cells.take(error.energy_gap), cells.take(error.network);
-  } else {
-    for (int k = 0; k < 4; ++k) cells.pass_empty();
+/// A cell into a row.
+struct Read {
+  Cells& cells;
+  levels::StepRow& row;
+
+  template <class Number> void operator()(Number levels::StepRow::*member) const { cells.take(row.*member); }
+  void operator()(levels::HashFigure hash) const { cells.take(row.*hash.member, "a hash", 16); }
+  void operator()(double levels::ReferenceError::*member) const {
+    if (row.error)
+      cells.take((*row.error).*member);
+    else
+      cells.pass_empty();
   }
-  cells.take_hash(row.hash);
+};
+
+levels::StepRow row_of(Cells cells, const StepColumns& columns) {
+  levels::StepRow row;
+  bool undecided = true; // the first cell about the reference tells whether it was asked
+  for (const levels::StepColumn& column : columns) {
+    const bool of_reference = std::holds_alternative<double levels::ReferenceError::*>(column.figure);
+    if (of_reference && std::exchange(undecided, false) && !cells.empty()) row.error.emplace();
+    std::visit(Read{cells, row}, column.figure);
+  }
+  cells.expect_end();
   return row;
 }
 
 } // namespace
 
-const std::vector<std::string>& step_columns() {
-  static const std::vector<std::string> columns{
-      "step",          "time",       "sweeps",       "cycles",           "energy",
-      "kinetic",       "max_strain", "saturated",    "converged",        "max_stretch",
-      "bus_cycles",    "clipped",    "output_error", "output_error_rms", "energy_gap",
-      "network_error", "hash"};
+const StepColumns& step_columns() {
+  static const StepColumns columns(std::begin(levels::all_step_columns), std::end(levels::all_step_columns));
   return columns;
 }
 
-void write_row(files::CsvWriter& table, const levels::StepRow& row) {
-  table.cell(row.step).cell(row.time).cell(row.sweeps).cell(row.cycles).cell(row.energy).cell(row.kinetic);
-  table.cell(row.max_strain).cell(row.saturated).cell(row.converged).cell(row.max_stretch);
-  table.cell(row.bus_cycles).cell(row.clipped);
-  if (row.error)
-    table.cell(row.error->largest_output)
-        .cell(row.error->rms_output)
-        .cell(row.error->energy_gap)
-        .cell(row.error->network);
-  else
-    table.cell("").cell("").cell("").cell("");
-  table.cell(fmt::format("{:016x}", row.hash)).end_row();
+std::vector<std::string> step_header(const StepColumns& columns) {
+  std::vector<std::string> names;
+  for (const levels::StepColumn& column : columns) names.emplace_back(column.name);
+  return names;
 }
 
-std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes) {
+void write_row(files::CsvWriter& table, const levels::StepRow& row, const StepColumns& columns) {
+  for (const levels::StepColumn& column : columns) std::visit(Write{table, row}, column.figure);
+  table.end_row();
+}
+
+std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes,
+                                       const StepColumns& columns) {
   std::ifstream file(table, std::ios::binary);
   std::vector<levels::StepRow> rows;
   int number = 0;
   for (std::string line; bytes > 0 && std::getline(file, line); bytes -= std::min(bytes, line.size() + 1))
-    if (++number > 1) rows.push_back(row_of(Cells(line, table.string(), number)));
+    if (++number > 1) rows.push_back(row_of(Cells(line, table.string(), number), columns));
   return rows;
 }
 

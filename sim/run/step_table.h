@@ -6,12 +6,17 @@
 
 namespace hopmesh::run {
 
-/// In the order of the file.
-const std::vector<std::string>& step_columns();
+using StepColumns = std::vector<levels::StepColumn>;
 
-void write_row(files::CsvWriter& table, const levels::StepRow& row);
+/// levels::all_step_columns, for those who are given no other table.
+const StepColumns& step_columns();
+std::vector<std::string> step_header(const StepColumns& columns = step_columns());
 
-/// The rows in the first `bytes` of a table. Throws scene::InputError with file and line where they are none.
-std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes);
+void write_row(files::CsvWriter& table, const levels::StepRow& row,
+               const StepColumns& columns = step_columns());
+
+/// The rows in the first `bytes` of a table. Throws input::InputError with file and line where they are none.
+std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes,
+                                       const StepColumns& columns = step_columns());
 
 } // namespace hopmesh::run

@@ -8,7 +8,7 @@ namespace hopmesh::scene {
 /// Nodes, springs (rest lengths still 0) and triangles of a grid.
 void build_grid(const Scene& scene, Mesh& mesh);
 
-/// The same from the scene's mesh file.
+/// Nodes, springs and triangles of the scene's mesh file.
 void build_from_file(const Scene& scene, Mesh& mesh);
 
 /// Marks the pinned nodes. Throws InputError for a pin that names no node of this mesh.

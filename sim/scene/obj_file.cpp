@@ -3,11 +3,12 @@
 #include "sim/scene/obj_file.h"
 
 #include "sim/input/input_error.h"
+#include "sim/input/line_reader.h"
+#include "sim/input/number.h"
 #include "sim/input/whole_file.h"
 #include "sim/scene/limits.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -24,22 +25,7 @@ struct RawCorner {
   int line;
 };
 
-/// The words of one line, taken one at a time; a comment ends the line.
-class Words {
- public:
-  explicit Words(std::string_view line) : rest_(line.substr(0, line.find('#'))) {}
-  std::string_view next() {
-    const auto first = rest_.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    rest_.remove_prefix(first);
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r"));
-    rest_.remove_prefix(word.size());
-    return word;
-  }
-
- private:
-  std::string_view rest_;
-};
+using input::Words;
 
 class ObjReader {
  public:
@@ -64,19 +50,17 @@ class ObjReader {
   }
 
   void read_lines(const std::string& text) {
-    std::string_view rest(text);
-    while (!rest.empty()) {
-      ++line_;
-      const std::string_view line = rest.substr(0, rest.find('\n'));
-      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-      read_line(line);
+    input::LineReader lines(text);
+    while (lines.next()) {
+      line_ = lines.number();
+      read_line(lines.line());
     }
   }
 
   void read_line(std::string_view line) {
     if (line.find('\0') != std::string_view::npos)
       fail(line_, "a byte of value 0", "an OBJ mesh, which is text");
-    Words words(line);
+    Words words(line.substr(0, line.find('#')));
     const std::string_view keyword = words.next();
     if (keyword == "v")
       read_vertex(words);
@@ -89,11 +73,8 @@ class ObjReader {
   }
 
   double number(std::string_view word, const char* name) const {
-    std::string_view digits = word;
-    if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
     double x = 0;
-    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-    if (failure != std::errc() || end != digits.data() + digits.size())
+    if (!input::parse_number(word, x))
       fail(line_, word.empty() ? "no " + std::string(name) : input::in_quotes(word),
            fmt::format("a number for {}", name));
     if (!(std::abs(x) <= farthest))
@@ -154,8 +135,7 @@ class ObjReader {
   /// Indices count from 1; negative ones count back from the latest.
   std::int64_t index(std::string_view digits, std::size_t so_far, std::string_view word) const {
     std::int64_t k = 0;
-    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
-    if (failure != std::errc() || end != digits.data() + digits.size() || k == 0)
+    if (!input::parse_number(digits, k) || k == 0)
       fail(line_, input::in_quotes(word), "a corner v, v/vt, v//vn or v/vt/vn with indices from 1");
     if (k < 0 && k + std::int64_t(so_far) < 0)
       fail(line_, input::in_quotes(word), fmt::format("at most {} back, that many stand above", so_far));

@@ -109,6 +109,11 @@ struct Scene {
   RelaxSpec relax;
   ForceSpec force;
 
+  /// As reference and firmware call it: probe, or the rule of an incremental one.
+  std::string formulation_name() const {
+    return motion.formulation == Formulation::probe ? "probe" : incremental.rule;
+  }
+
   /// Steps look for the least potential energy; nothing has a speed.
   bool is_static() const {
     return motion.formulation == Formulation::incremental && incremental.rule == "static";

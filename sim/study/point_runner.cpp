@@ -3,6 +3,7 @@
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/reference_motion.h"
 #include "sim/run/array_info.h"
+#include "sim/run/run_totals.h"
 #include "sim/scene/frequency.h"
 
 #include <algorithm>
@@ -31,20 +32,17 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
             PointRow& row) {
-  double squares = 0;
-  std::vector<double> errors;
-  for (const levels::StepRow& step : result.rows) {
-    row.sweeps += step.sweeps, row.cycles += step.cycles, row.bus_cycles += step.bus_cycles;
-    row.largest_strain = std::max(row.largest_strain, step.max_strain);
-    if (!step.error) continue;
-    errors.push_back(step.error->rms_output);
-    squares += step.error->rms_output * step.error->rms_output;
-  }
+  using levels::ReferenceError;
+  using levels::StepRow;
+  using levels::Summary;
   row.steps = result.rows.size();
-  if (!errors.empty()) {
-    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-    std::nth_element(errors.begin(), middle, errors.end());
-    row.output_error = std::sqrt(squares / static_cast<double>(row.steps)), row.output_error_median = *middle;
+  row.sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::sum);
+  row.cycles = run::count_of(result.rows, &StepRow::cycles, Summary::sum);
+  row.bus_cycles = run::count_of(result.rows, &StepRow::bus_cycles, Summary::sum);
+  row.largest_strain = run::total_of(result.rows, &StepRow::max_strain, Summary::largest);
+  if (run::is_judged(result.rows)) {
+    row.output_error = run::total_of(result.rows, &ReferenceError::rms_output, Summary::rms);
+    row.output_error_median = run::total_of(result.rows, &ReferenceError::rms_output, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
   if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
@@ -81,22 +79,17 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
   const auto steps = static_cast<std::uint64_t>(inputs.scene.motion.steps);
   const run::RunResult result = run::simulate(*motion, steps, {&ours}, stop);
   PointRow row;
-  row.status = result.outcome == run::Outcome::diverged   ? "diverged"
-               : result.outcome == run::Outcome::finished ? "finished"
-                                                          : "interrupted";
+  row.outcome = result.outcome;
   row.sentence = result.sentence;
   row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);
   row.omega = scene::largest_frequency(mesh.mesh());
   row.stability = classify(result.rows, facts_of(inputs, mesh, result));
-  row.reference_at.resize(times.size());
-  row.truth_at.resize(times.size());
   if (row.steps > 0) against_reference(inputs, mesh, times, ours, motion->positions(), stop, row);
-  row.floor_at.resize(times.size());
   if (!times.empty()) {
     const Truth truth = methods.truth(inputs, mesh, times);
     row.truth_at = distances(ours.at, truth.positions);
-    std::copy(truth.floor.begin(), truth.floor.end(), row.floor_at.begin());
+    row.floor_at.assign(truth.floor.begin(), truth.floor.end());
   }
   return row;
 }

@@ -7,7 +7,6 @@ namespace hopmesh::study {
 
 namespace {
 
-
 class Search {
  public:
   Search(const Sizing& sizing, const SizeGoal& goal, SizeTrials& trials)
@@ -30,7 +29,7 @@ class Search {
 
  private:
   std::string fails_by(const TrialRow& row) const {
-    if (row.status != "finished") return row.status;
+    if (row.outcome != run::Outcome::finished) return std::string(name_of(row.outcome));
     if (row.error > goal_.error) return "error";
     return row.sweeps > most_sweeps_ ? "sweeps" : "";
   }

@@ -14,7 +14,7 @@ struct SizeGoal {
   std::size_t most_taps = 1;
 };
 
-/// One line of the evidence: what was tried beside the size, and what came of it.
+/// A line of the evidence: what was tried beside the size, and what came of it.
 struct SizeEvidence {
   std::string what, knob; ///< "size", "array file", "one less", "two less", "lanes"
   Setting setting;

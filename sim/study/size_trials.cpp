@@ -1,23 +1,24 @@
 #include "sim/study/size_trials.h"
 
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
-#include "sim/study/point_pool.h"
+#include "sim/run/children.h"
+#include "sim/run/run_totals.h"
 
 namespace hopmesh::study {
 
 namespace {
 
 TrialRow row_of(const run::RunResult& result, double error) {
+  using levels::StepRow;
+  using levels::Summary;
   TrialRow row;
-  const bool finished = result.outcome == run::Outcome::finished;
-  row.status = finished ? "finished" : "diverged";
-  if (finished) row.error = error;
-  for (const levels::StepRow& step : result.rows) {
-    row.sweeps += step.sweeps, row.cycles += step.cycles;
-    row.most_sweeps = std::max(row.most_sweeps, step.sweeps);
-    row.most_cycles = std::max(row.most_cycles, step.cycles);
-  }
+  row.outcome = result.outcome;
+  if (result.outcome == run::Outcome::finished) row.error = error;
+  row.sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::sum);
+  row.most_sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::largest);
+  row.cycles = run::count_of(result.rows, &StepRow::cycles, Summary::sum);
+  row.most_cycles = run::count_of(result.rows, &StepRow::cycles, Summary::largest);
   return row;
 }
 
@@ -30,19 +31,19 @@ int SizeTrials::fly(const Setting& setting) const {
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
   const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
   const run::RunResult result = run::simulate(*level.motion, steps, {}, levels::stop_requested);
-  if (levels::stop_requested) return child_stopped;
+  if (levels::stop_requested) return run::child_stopped;
   folder_.keep(setting, row_of(result, run::rms_distance(level.motion->positions(), target_)));
-  return child_done;
+  return run::child_done;
 }
 
 std::vector<TrialRow> SizeTrials::rows(const std::vector<Setting>& settings) {
   std::vector<std::size_t> missing;
   for (std::size_t k = 0; k < settings.size(); ++k)
     if (!folder_.find(settings[k])) missing.push_back(k);
-  const bool whole = run_in_children(
+  const bool whole = run::run_in_children(
       missing, workers_, [&](std::size_t k) { return fly(settings[k]); },
-      [&](std::size_t k, const ChildEnd& end) {
-        const bool asked = levels::stop_requested || end.exit_code == child_stopped;
+      [&](std::size_t k, const run::ChildEnd& end) {
+        const bool asked = levels::stop_requested || end.exit_code == run::child_stopped;
         if (!asked && !folder_.find(settings[k])) folder_.keep(settings[k], {});
         progress_.count(++flown_);
       },

@@ -18,7 +18,7 @@ class SizeTrials {
              std::size_t workers)
       : sizing_(sizing), folder_(folder), target_(target), workers_(workers), progress_("trials", 0) {}
 
-  /// One row a setting, in their order. Throws SearchStopped.
+  /// A row for each setting, in their order. Throws SearchStopped.
   std::vector<TrialRow> rows(const std::vector<Setting>& settings);
   TrialRow row(const Setting& setting) { return rows({setting})[0]; }
   std::uint64_t flown() const { return flown_; } ///< by this process, not found in the folder

@@ -15,8 +15,6 @@ const char* const knob_names[knob_count] = {"formats.weight",  "formats.bias",  
 
 namespace {
 
-constexpr int widest_word = 32, narrowest_word = 4, widest_sum = 62; // rtl_model/spec/array_rules.h
-
 /// The formats of the first five knobs.
 spec::NumberFormat& format_of(spec::Formats& f, std::size_t knob) {
   spec::NumberFormat* const all[] = {&f.weight, &f.bias, &f.drive, &f.state, &f.link};
@@ -55,9 +53,10 @@ Setting Sizing::widest() const {
   spec::Formats whole = formats_;
   whole.weight.width = whole.weight.integer_bits, whole.link.width = whole.link.integer_bits;
   whole.bias.width = whole.bias.integer_bits;
-  const int room = widest_sum - spec::exact_accumulator_format(whole, mesh_.topology().most_taps()).width;
+  const int room =
+      spec::most_sum_width - spec::exact_accumulator_format(whole, mesh_.topology().most_taps()).width;
   const auto bits = [](int fraction, const spec::NumberFormat& f) {
-    return std::min(fraction, widest_word - f.integer_bits);
+    return std::min(fraction, spec::most_width - f.integer_bits);
   };
   const int state = bits(room, formats_.state), weight = bits(room / 2, formats_.weight);
   return {weight,
@@ -65,7 +64,7 @@ Setting Sizing::widest() const {
           bits(room, formats_.drive),
           state,
           std::min(state, bits(room - weight, formats_.link)),
-          inputs_.array.normaliser == spec::Normaliser::reciprocal ? widest_word
+          inputs_.array.normaliser == spec::Normaliser::reciprocal ? spec::most_reciprocal_bits
                                                                    : inputs_.array.reciprocal_bits,
           scene_threshold,
           static_cast<int>(inputs_.scene.relax.max_sweeps),
@@ -73,11 +72,11 @@ Setting Sizing::widest() const {
 }
 
 int Sizing::least(std::size_t knob) const {
-  if (knob == k_reciprocal) return narrowest_word;
+  if (knob == k_reciprocal) return spec::least_reciprocal_bits;
   if (knob == k_threshold) return 0;
   if (knob > k_link) return 1;
   spec::Formats f = formats_;
-  return std::max(1, narrowest_word - format_of(f, knob).integer_bits);
+  return std::max(1, spec::least_width - format_of(f, knob).integer_bits);
 }
 
 std::optional<Setting> Sizing::lowered(const Setting& from, std::size_t knob, int by) const {

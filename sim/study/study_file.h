@@ -10,7 +10,7 @@
 
 namespace hopmesh::study {
 
-/// One override of scene or array, and the line of the study that asks for it.
+/// An override of scene or array, and the line of the study that asks for it.
 struct StudySetting {
   std::string key, text; ///< text: a TOML value
   int line = 0;
@@ -33,7 +33,7 @@ struct StudyAxis {
 struct Study {
   std::string name, path, text;
   std::string scene, array;
-  std::int64_t steps = 0; ///< 0: the scene's
+  std::int64_t steps = 0;           ///< 0: the scene's
   std::vector<std::string> methods; ///< where the file names none: the default level
   int methods_line = 0, times_line = 0;
   std::vector<double> times;   ///< s

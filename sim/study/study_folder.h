@@ -29,7 +29,4 @@ class StudyFolder {
   std::optional<files::FolderLock> lock_;
 };
 
-/// Columns of results.csv.
-std::vector<std::string> result_columns(const Study& study);
-
 } // namespace hopmesh::study

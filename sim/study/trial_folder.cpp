@@ -44,10 +44,11 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
   const fs::path file = file_of(setting);
   if (!fs::exists(file)) return std::nullopt;
   const files::CsvTable table = files::read_csv(file);
-  if (table.header != columns || table.rows.size() != 1)
-    throw input::input_error(file.string(), 1, "", "no trial", "a trial's row");
+  const bool whole = table.header == columns && table.rows.size() == 1;
+  const auto outcome = whole ? run::outcome_named(table.text(0, "status")) : std::nullopt;
+  if (!outcome) throw input::input_error(file.string(), 1, "", "no trial", "a trial's row");
   TrialRow row;
-  row.status = table.text(0, "status");
+  row.outcome = *outcome;
   row.error = table.number(0, "error").value_or(HUGE_VAL);
   row.sweeps = count(table, "sweeps"), row.most_sweeps = count(table, "most_sweeps");
   row.cycles = count(table, "cycles"), row.most_cycles = count(table, "most_cycles");
@@ -56,7 +57,7 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
 
 void TrialFolder::keep(const Setting& setting, const TrialRow& row) const {
   files::CsvWriter table(file_of(setting), columns);
-  table.cell(row.status).cell(row.error).cell(row.sweeps).cell(row.most_sweeps);
+  table.cell(name_of(row.outcome)).cell(row.error).cell(row.sweeps).cell(row.most_sweeps);
   table.cell(row.cycles).cell(row.most_cycles).end_row();
   table.commit();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/files/folder_lock.h"
+#include "sim/run/outcome.h"
 #include "sim/study/sizing.h"
 
 #include <cmath>
@@ -10,7 +11,7 @@ namespace hopmesh::study {
 
 /// What a run with a setting came to.
 struct TrialRow {
-  std::string status = "crashed";            ///< finished, diverged, crashed
+  run::Outcome outcome = run::Outcome::crashed;
   double error = HUGE_VAL;                   ///< rms of positions at the end, m
   std::uint64_t sweeps = 0, most_sweeps = 0; ///< in all, and of the longest step
   std::uint64_t cycles = 0, most_cycles = 0;

@@ -4,7 +4,7 @@
 #include "sim/files/csv_table.h"
 #include "sim/files/npy.h"
 #include "sim/levels/step_state.h"
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 #include "sim/rivals/truth.h"
 #include "sim/run/checkpoint.h"
 

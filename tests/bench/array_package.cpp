@@ -1,5 +1,7 @@
 #include "tests/bench/array_package.h"
 
+#include "rtl_model/spec/points.h"
+
 #include <stdexcept>
 
 namespace hopmesh::bench {
@@ -29,29 +31,26 @@ void expect(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("the Verilog models need ") + what);
 }
 
-/// Places between the formats, as docs/hardware/datapath.md has them.
+/// Formats, and the places between their points.
 std::string numbers(const spec::ArraySpec& array, std::size_t taps) {
-  const spec::Formats& f = array.formats;
-  const spec::NumberFormat sum = spec::accumulator_format(array, taps);
-  const int unit = std::max(f.weight.fraction_bits(), f.bias.fraction_bits());
-  const int weight_up = unit - f.weight.fraction_bits(), bias_up = unit - f.bias.fraction_bits();
-  const int ratio_up = f.drive.fraction_bits() + unit - sum.fraction_bits();
-  const int norm_bits = bits_for((std::uint64_t{taps} << (f.weight.width - 1 + weight_up)) +
-                                 (std::uint64_t{1} << (f.bias.width - 1 + bias_up)));
+  const spec::Formats f = spec::built_formats(array, taps);
+  const spec::Points p = spec::points_of(f);
+  const int norm_bits = bits_for((std::uint64_t{taps} << (f.weight.width - 1 + p.weight_up)) +
+                                 (std::uint64_t{1} << (f.bias.width - 1 + p.bias_up)));
   expect(norm_bits < 32, "an N of less than 32 bits");
-  expect(sum.width + array.reciprocal_bits <= 64, "a sum times a reciprocal in 64 bits");
-  expect(ratio_up <= array.reciprocal_bits - 2, "no more fraction in the drive than the reciprocal gives");
+  expect(f.accumulator.width + array.reciprocal_bits <= 64, "a sum times a reciprocal in 64 bits");
+  expect(p.ratio_up <= array.reciprocal_bits - 2, "no more fraction in the drive than the reciprocal gives");
   return number("WEIGHT_BITS", f.weight.width) + number("BIAS_BITS", f.bias.width) +
          number("DRIVE_BITS", f.drive.width) + number("DRIVE_FRACTION", f.drive.fraction_bits()) +
          number("DRIVE_ROUNDING", static_cast<int>(f.drive.rounding)) + number("STATE_BITS", f.state.width) +
          number("STATE_FRACTION", f.state.fraction_bits()) +
          number("STATE_ROUNDING", static_cast<int>(f.state.rounding)) + number("LINK_BITS", f.link.width) +
          number("LINK_FRACTION", f.link.fraction_bits()) +
-         number("LINK_ROUNDING", static_cast<int>(f.link.rounding)) + number("ACCUMULATOR_BITS", sum.width) +
-         number("PRODUCT_UP", sum.fraction_bits() - f.weight.fraction_bits() - f.link.fraction_bits()) +
-         number("BIAS_UP", sum.fraction_bits() - f.bias.fraction_bits()) + number("NORM_BITS", norm_bits) +
-         number("WEIGHT_NORM_UP", weight_up) + number("BIAS_NORM_UP", bias_up) +
-         number("RECIPROCAL_BITS", array.reciprocal_bits) + number("RATIO_UP", ratio_up);
+         number("LINK_ROUNDING", static_cast<int>(f.link.rounding)) +
+         number("ACCUMULATOR_BITS", f.accumulator.width) + number("PRODUCT_UP", p.product_up) +
+         number("BIAS_UP", -p.bias_down) + number("NORM_BITS", norm_bits) +
+         number("WEIGHT_NORM_UP", p.weight_up) + number("BIAS_NORM_UP", p.bias_up) +
+         number("RECIPROCAL_BITS", array.reciprocal_bits) + number("RATIO_UP", p.ratio_up);
 }
 
 /// The mesh: where each neuron's row begins, in which phase it fires, which neurons its taps come from.

@@ -1,7 +1,7 @@
 // How fast the engine relaxes flags of any size, and how near that is to what this processor can do at most:
 // streams and multiply-adds of the same kind, measured in the same run.
-#include "sim/reference/reference.h"
 #include "sim/levels/reference_check.h"
+#include "sim/reference/reference.h"
 #include "tests/bench/clocked_flag.h"
 #include "tests/bench/grid_network.h"
 #include "tests/bench/roofs.h"
@@ -51,7 +51,7 @@ void relax(benchmark::State& state, const GridNetwork& network, const Options& o
   state.SetLabel(e.kernel());
 }
 
-/// The same network of doubles, relaxed by the reference in the same order.
+/// That network in doubles, relaxed by the reference in the same order.
 void relax_reference(benchmark::State& state) {
   const scene::Inputs inputs = scene::read_inputs("flag-400", "", {});
   const levels::BuiltMesh mesh(inputs.scene);

@@ -46,7 +46,7 @@ struct Stages {
   double read = 0, mesh = 0, colours = 0, first_step = 0, steps = 0, record = 0, finish = 0;
 };
 
-/// One whole run: its stages, and the parts of a step.
+/// A whole run: its stages, and the parts of a step.
 class HostRun {
  public:
   HostRun(int side, std::uint64_t steps) : steps_(steps) {

@@ -17,7 +17,7 @@ spec::Topology flag_mesh(const std::vector<std::string>& overrides) {
       .topology();
 }
 
-/// One column more than there are cells: the left one is pinned.
+/// A column more than there are cells: the left one is pinned.
 spec::Topology small_mesh() {
   return flag_mesh({"mesh.grid.rows=5", "mesh.grid.columns=5"});
 }

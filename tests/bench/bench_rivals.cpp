@@ -1,9 +1,9 @@
 // The rivals' cost for a second of the flag of 400 nodes in table 3 of the measured anchors, beside SUNDIALS
-// in the same process: what is compared across machines is the ratio to it, not the time. One thread,
+// in the same process: what is compared across machines is the ratio to it, not the time. A single thread,
 // processor time.
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 #include "sim/rivals/truth.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double yardstick_tolerance = 1e-8;
 /// 1 m x 1 m and 1 kg of cloth, k = 100 N/m, blown across at 15 and 5 m/s and pulled down along its pinned
 /// edge.
 const Physics& flag() {
-  static const Physics physics(rivals::testing::sheet(20, 50), {{3, 1, -9.81}, 0.2});
+  static const Physics physics(tests::sheet(20, 50), {{3, 1, -9.81}, 0.2});
   return physics;
 }
 
@@ -62,7 +62,7 @@ void sundials(benchmark::State& state) {
   counted(state, steps, passes);
 }
 
-/// One instruction set's loops.
+/// The loops of an instruction set.
 void force_pass(benchmark::State& state, const rivals::ForceKernel& kernel) {
   const rivals::Vector position = flag().initial_state().position;
   const rivals::ForcePass pass(static_cast<std::size_t>(flag().nodes()), flag().springs(), kernel);

@@ -1,6 +1,6 @@
 // How fast the array is at register-transfer level: the Verilog models as Verilator simulates them, beside
-// the native levels that do the same work to the bit and to the cycle. One process, turns at random, like
-// bench_array.
+// the native levels that do the same work to the bit and to the cycle. A single process, turns at random,
+// like bench_array.
 #include "sim/engine/engine.h"
 #include "tests/bench/flag_network.h"
 #include "tests/bench/verilated_flag.h"
@@ -70,14 +70,14 @@ void run_engine(benchmark::State& state, Arrays& a) {
   e.write_weights(0, words(n.weights), n.weights.size());
   e.write_biases(0, words(n.biases), n.biases.size());
   e.write_outputs(0, words(n.start), n.start.size());
-  const engine::RunResult first = e.run(0, sweeps_a_run);
+  const spec::Relaxation first = e.run(0, sweeps_a_run);
   Outcome outcome{std::vector<std::int32_t>(n.start.size()), first.sweeps, first.cycles,
                   first.largest_change};
   e.read_outputs(0, reinterpret_cast<std::uint32_t*>(outcome.outputs.data()), outcome.outputs.size());
   if (!(outcome == n.expected)) state.SkipWithError("other codes, sweeps or cycles than woken by phase");
   std::uint64_t sweeps = 0, cycles = 0;
   for (auto _ : state) {
-    const engine::RunResult r = e.run(0, sweeps_of_a_step);
+    const spec::Relaxation r = e.run(0, sweeps_of_a_step);
     sweeps += r.sweeps;
     cycles += r.cycles;
   }

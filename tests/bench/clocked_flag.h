@@ -24,11 +24,11 @@ class ClockedFlag {
   /// Steps `clocks` clocks, one at a time; a run that ends begins again. Returns the sum of all outputs,
   /// which hangs on every one of them.
   std::int64_t step(std::uint64_t clocks);
-  /// The same, all registers copied out after each clock.
+  /// Steps, and copies all registers out after each clock.
   std::int64_t step_and_copy(std::uint64_t clocks);
-  /// The same, a wave of every register drawn (and thrown away: the disk is no part of this).
+  /// Steps, and draws a wave of every register (thrown away: the disk is no part of this).
   std::int64_t step_and_draw(std::uint64_t clocks);
-  /// The same clocks, only the last of which shows.
+  /// Steps those clocks, of which only the last shows.
   std::int64_t stride(std::uint64_t clocks);
 
   engine::ClockedEngine& engine() { return *engine_; }

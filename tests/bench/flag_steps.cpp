@@ -13,7 +13,7 @@ double processor_seconds() {
 }
 
 FlagSteps::FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut)
-    : mesh_(mesh), dut_(dut), motion_(levels::motion_of(scene)), buffer_(4096) {}
+    : mesh_(mesh), dut_(dut), parameters_(levels::motion_of(scene)), buffer_(4096) {}
 
 void FlagSteps::begin() {
   memory_.emplace(mesh_);
@@ -29,13 +29,13 @@ void FlagSteps::advance() {
   const PartSeconds before = seconds_;
   const double began = processor_seconds();
   hm_step_result result;
-  if (hm_step(&mesh_.firmware(), &motion_, &solver, &memory_->state, &result) != HM_OK)
+  if (hm_step(&mesh_.firmware(), &parameters_, &solver, &memory_->state, &result) != HM_OK)
     throw std::runtime_error("the firmware could not do a step");
   const double relaxed =
       seconds_.array - before.array + seconds_.bus - before.bus + seconds_.driver - before.driver;
   seconds_.network_and_motion += processor_seconds() - began - relaxed;
-  sweeps_ += result.sweeps;
-  cycles_ += result.cycles;
+  sweeps_ += result.relaxation.sweeps;
+  cycles_ += result.relaxation.cycles;
 }
 
 int FlagSteps::relax(void* self, const hm_mesh* mesh, hm_network* network, double threshold,

@@ -48,7 +48,7 @@ class FlagSteps : private HostBus {
 
   const levels::BuiltMesh& mesh_;
   tests::Dut& dut_;
-  const hm_motion motion_;
+  const hm_step_parameters parameters_;
   hm_driver driver_{};
   std::optional<levels::StepMemory> memory_; ///< anew at every begin()
   std::vector<std::uint32_t> buffer_;

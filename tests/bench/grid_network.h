@@ -1,9 +1,9 @@
-// One network of a moving flag of any size, as raw codes: what the engine's benchmarks relax.
+// A network of a moving flag of any size, as raw codes: what the engine's benchmarks relax.
 #pragma once
 
 #include "sim/engine/engine.h"
-#include "sim/scene/scene_file.h"
 #include "sim/levels/built_mesh.h"
+#include "sim/scene/scene_file.h"
 
 namespace hopmesh::bench {
 
@@ -20,7 +20,7 @@ struct GridNetwork {
 /// before it are flown on the engine.
 GridNetwork grid_network(std::size_t rows, std::size_t columns, int step, const std::string& array = "",
                          std::vector<std::string> overrides = {});
-/// The same of any scene.
+/// The network of a step of any scene.
 GridNetwork scene_network(const std::string& scene, int step, const std::string& array,
                           const std::vector<std::string>& overrides);
 

@@ -1,23 +1,21 @@
 #include "tests/bench/null_array.h"
 
-#include "firmware/registers.h"
+#include "rtl_model/spec/capabilities.h"
+#include "rtl_model/spec/schedule.h"
 
 #include <cstring>
 
 namespace hopmesh::bench {
 
-namespace {
-
-std::uint32_t packed(const spec::NumberFormat& f) {
-  return static_cast<std::uint32_t>(f.width) | static_cast<std::uint32_t>(f.integer_bits & 255) << 8 |
-         static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
-}
-
-} // namespace
-
 NullArray::NullArray(const spec::ArraySpec& array, const spec::Topology& topology)
-    : array_(array), topology_(topology), weight_(topology.weight_words()), bias_(topology.neurons()),
-      output_(topology.neurons()) {}
+    : topology_(topology), weight_(topology.weight_words()), bias_(topology.neurons()),
+      output_(topology.neurons()), registers_{{HM_REG_ID, HM_ID_VALUE},
+                                              {HM_REG_VERSION, HM_VERSION_VALUE},
+                                              {HM_REG_SWEEPS, 1}} {
+  const std::size_t phases = spec::phases_of(topology, array.schedule).size();
+  for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
+    registers_[offset] = word;
+}
 
 int NullArray::read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
   if (address < HM_WINDOW_FIRST_LINK) {
@@ -53,36 +51,11 @@ std::uint32_t* NullArray::window(std::uint32_t address) {
   return in(HM_WINDOW_FIRST_LINK, topology_.first_link);
 }
 
+// The driver asks for STATUS before it loads, and when the run is over.
 std::uint32_t NullArray::read_register(std::uint32_t offset) {
-  switch (offset) {
-  case HM_REG_ID:
-    return HM_ID_VALUE;
-  case HM_REG_VERSION:
-    return HM_VERSION_VALUE;
-  case HM_REG_CAP_CELLS:
-    return static_cast<std::uint32_t>(topology_.cells());
-  case HM_REG_CAP_NEURONS_PER_CELL:
-    return static_cast<std::uint32_t>(topology_.neurons_per_cell);
-  case HM_REG_CAP_LINK_WORDS:
-    return static_cast<std::uint32_t>(topology_.link_to.size());
-  case HM_REG_CAP_NORMALISER:
-    return static_cast<std::uint32_t>(array_.normaliser);
-  case HM_REG_CAP_OUTPUT:
-    return static_cast<std::uint32_t>(array_.output);
-  case HM_REG_CAP_FORMAT_WEIGHT:
-    return packed(array_.formats.weight);
-  case HM_REG_CAP_FORMAT_BIAS:
-    return packed(array_.formats.bias);
-  case HM_REG_CAP_FORMAT_STATE:
-    return packed(array_.formats.state);
-  case HM_REG_STATUS: // the driver asks before it loads, and when the run is over
-    if (!loading_ && outputs_left_ == 0) lap(seconds.network), loading_ = true;
-    return HM_STATUS_DONE | HM_STATUS_CONVERGED;
-  case HM_REG_SWEEPS:
-    return 1;
-  default:
-    return 0;
-  }
+  if (offset != HM_REG_STATUS) return registers_[offset];
+  if (!loading_ && outputs_left_ == 0) lap(seconds.network), loading_ = true;
+  return HM_STATUS_DONE | HM_STATUS_CONVERGED;
 }
 
 void NullArray::lap(double& part) {

@@ -5,6 +5,7 @@
 #include "sim/levels/array_port.h"
 
 #include <chrono>
+#include <map>
 
 namespace hopmesh::bench {
 
@@ -35,9 +36,9 @@ class NullArray : public levels::ArrayPort {
   std::uint32_t read_register(std::uint32_t offset);
   void lap(double& part);
 
-  const spec::ArraySpec array_;
   const spec::Topology& topology_;
   std::vector<std::uint32_t> weight_, bias_, output_;
+  std::map<std::uint32_t, std::uint32_t> registers_;
   std::uint32_t outputs_left_ = 0; ///< words of the read-back still to come
   bool loading_ = false;
   Clock::time_point mark_;

@@ -5,6 +5,7 @@
 namespace hopmesh::bench {
 
 using sc_core::sc_time;
+using spec::Segment;
 
 namespace {
 
@@ -53,7 +54,8 @@ template <typename Fixed> Fixed from_raw(std::int32_t code) {
 ScFixedNeuron::ScFixedNeuron(sc_core::sc_module_name name, std::size_t taps, std::size_t phase,
                              const spec::CycleModel& cycles)
     : sc_module(name), clock("clock"), segment("segment"), beat("beat"), in("in", taps), out("out"),
-      change("change"), taps_(static_cast<int>(taps)), segment_(first_phase + static_cast<int>(phase)),
+      change("change"), taps_(static_cast<int>(taps)),
+      segment_(Segment::first_phase + static_cast<int>(phase)),
       phase_cycles_(static_cast<int>(cycles.phase[phase])), prepare_cycles_(static_cast<int>(cycles.prepare)),
       weights_(taps) {
   SC_METHOD(on_clock);
@@ -78,7 +80,7 @@ std::int32_t ScFixedNeuron::state_raw() const {
 void ScFixedNeuron::on_clock() {
   const int now = segment.read();
   if (now == segment_) return phase_beat(beat.read());
-  if (now == prepare) prepare_beat(beat.read());
+  if (now == Segment::prepare) prepare_beat(beat.read());
 }
 
 void ScFixedNeuron::prepare_beat(int k) {
@@ -130,7 +132,7 @@ ScFixedArray::ScFixedArray(sc_core::sc_module_name name, const spec::ArraySpec& 
                            const spec::Topology& topology)
     : sc_module(name), topology_(topology), phases_(spec::phases_of(topology_, array.schedule)),
       model_(spec::cycle_model(array, topology_, phases_)), period_(1.0 / array.clock_mhz, sc_core::SC_US),
-      clock_("clock", false), segment_("segment", idle), beat_("beat", 0),
+      clock_("clock", false), segment_("segment", Segment::idle), beat_("beat", 0),
       links_("link", topology_.neurons()), changes_("change", topology_.neurons()) {
   expect_array(array, topology_.most_taps());
   SC_METHOD(toggle_clock);
@@ -192,41 +194,36 @@ std::uint32_t ScFixedArray::largest_change_raw() const {
   return static_cast<std::uint32_t>(raw(largest_));
 }
 
-// Rests low between runs, so that an idle array costs a neighbour in the same simulation nothing.
+// Rests low between runs, so that an Segment::idle array costs a neighbour in the same simulation nothing.
 void ScFixedArray::toggle_clock() {
   const bool rises = !clock_.read();
   clock_ = rises;
   if (rises || running_) edge_.notify(period_ / 2);
 }
 
-int ScFixedArray::length_of(int segment) const {
-  if (segment >= first_phase) return static_cast<int>(model_.phase[segment - first_phase]);
-  return segment == prepare ? static_cast<int>(model_.prepare) : 1;
-}
-
 int ScFixedArray::next_segment() {
-  const int at = segment_.read(), phases_end = first_phase + static_cast<int>(phases_.size());
-  if (at == idle) return start;
-  if (at == start) return prepare;
-  if (at == prepare) return first_phase;
-  if (at != check) return at + 1 < phases_end ? at + 1 : check;
-  measure_change();
-  sweeps_ += 1;
-  return largest_ <= threshold_ || sweeps_ == max_sweeps_ ? idle : first_phase;
+  const int at = segment_.read();
+  bool over = false;
+  if (at == Segment::check) {
+    measure_change();
+    sweeps_ += 1;
+    over = largest_ <= threshold_ || sweeps_ == max_sweeps_;
+  }
+  return spec::next_segment(model_, at, over);
 }
 
 // The first edge only takes START; every other one ends a cycle of the run.
 void ScFixedArray::on_clock() {
   const int at = segment_.read(), beat = beat_.read();
-  if (at != idle) cycles_ += 1;
-  if (beat + 1 < length_of(at)) {
+  if (at != Segment::idle) cycles_ += 1;
+  if (beat + 1 < static_cast<int>(spec::segment_cycles(model_, at))) {
     beat_.write(beat + 1);
     return;
   }
   const int next = next_segment();
   segment_.write(next);
   beat_.write(0);
-  if (next == idle) running_ = false;
+  if (next == Segment::idle) running_ = false;
 }
 
 void ScFixedArray::measure_change() {

@@ -1,6 +1,7 @@
 // The default array as one writes it first in SystemC: sc_fixed for every number, a signal for every value
 // that leaves a module, a clocked method for every neuron. Benchmarks measure the production array against
-// it. It shares rtl_model/spec with that array and no arithmetic, so it is one more witness of the same bits.
+// it. This model shares rtl_model/spec with that array and no arithmetic, so it is one more witness of the
+// same bits.
 #pragma once
 
 #ifndef SC_INCLUDE_FX
@@ -27,9 +28,6 @@ using BiasedFixed = sc_dt::sc_fixed<25, 3>;       ///< R = 1 - V or 1 + V, exact
 /// R u, rounded as the state; a bit more, because from -1 to +1 is a step of 2.
 using DeltaFixed = sc_dt::sc_fixed<25, 3, sc_dt::SC_RND, sc_dt::SC_SAT>;
 
-/// Segments of a run, shown to every neuron; phase k is first_phase + k.
-enum Segment : int { idle, start, prepare, check, first_phase };
-
 class ScFixedNeuron : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(ScFixedNeuron);
@@ -37,7 +35,7 @@ class ScFixedNeuron : public sc_core::sc_module {
                 const spec::CycleModel& cycles);
 
   sc_core::sc_in<bool> clock;
-  sc_core::sc_in<int> segment, beat;
+  sc_core::sc_in<int> segment, beat;                ///< a number of spec::Segment; cycle of it
   sc_core::sc_vector<sc_core::sc_in<LinkFixed>> in; ///< one a tap
   sc_core::sc_out<LinkFixed> out;
   sc_core::sc_out<DeltaFixed> change; ///< |V' - V| of the last time it fired
@@ -90,7 +88,6 @@ class ScFixedArray : public sc_core::sc_module {
   void on_clock();
   void enter(int segment);
   int next_segment();
-  int length_of(int segment) const;
   void measure_change();
 
   const spec::Topology topology_;

@@ -1,4 +1,4 @@
-// The Verilog models of the array (tests/bench/verilog/) behind one interface, clock by clock.
+// The Verilog models of the array (rtl_model/verilog/) behind one interface, clock by clock.
 #pragma once
 
 #include "tests/bench/bench_networks.h"

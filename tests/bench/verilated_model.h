@@ -9,7 +9,7 @@
 
 namespace hopmesh::bench {
 
-/// Windows of tests/bench/verilog/stages.sv, in its order.
+/// Windows of rtl_model/verilog/stages.sv, in its order.
 enum class Window { weight, source, bias, output, row_beats, last_phase, most_beats };
 
 template <class Model> class VerilatedModel : public VerilatedArray {
@@ -21,9 +21,7 @@ template <class Model> class VerilatedModel : public VerilatedArray {
   ~VerilatedModel() override { model_.final(); }
 
   void begin_run(std::uint32_t threshold_raw, std::uint32_t max_sweeps) override {
-    model_.threshold = threshold_raw;
-    model_.max_sweeps = max_sweeps;
-    model_.start = 1;
+    model_.threshold = threshold_raw, model_.max_sweeps = max_sweeps, model_.start = 1;
     clock();
     model_.start = 0;
   }
@@ -40,14 +38,10 @@ template <class Model> class VerilatedModel : public VerilatedArray {
 
  protected:
   void clock() {
-    model_.clock = 1;
-    model_.eval();
-    model_.clock = 0;
-    model_.eval();
+    for (const unsigned char level : {1, 0}) model_.clock = level, model_.eval();
   }
   void write(Window window, std::size_t address, std::size_t word) {
-    model_.write = 1;
-    model_.window = static_cast<unsigned char>(window);
+    model_.write = 1, model_.window = static_cast<unsigned char>(window);
     model_.address = static_cast<std::uint32_t>(address);
     model_.word = static_cast<std::uint32_t>(word);
     clock();

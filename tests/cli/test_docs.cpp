@@ -1,6 +1,6 @@
 // Pages of docs/use/ against the program (scene files, array files, the results folder, networks of one's
 // own): keys, defaults, presets, files, columns, flags.
-#include "tests/cli/cli_test.h"
+#include "tests/support/cli_test.h"
 
 #include "place.h"
 
@@ -34,13 +34,16 @@ class CliDocs : public Cli {
     return rows;
   }
 
-  /// Everything in `backticks` in the first cell of the rows under a heading, in order.
-  static std::vector<std::string> named_in(const std::string& text, const std::string& heading) {
+  /// Everything in `backticks` in the first cell of the rows under a heading, or in the last one, in order.
+  static std::vector<std::string> named_in(const std::string& text, const std::string& heading,
+                                           bool last = false) {
     std::vector<std::string> names;
     static const std::regex code("`([^`]*)`");
-    for (const auto& row : rows_of(text, heading))
-      for (std::sregex_iterator at(row[0].begin(), row[0].end(), code), end; at != end; ++at)
+    for (const auto& row : rows_of(text, heading)) {
+      const std::string& cell = last ? row.back() : row[0];
+      for (std::sregex_iterator at(cell.begin(), cell.end(), code), end; at != end; ++at)
         names.push_back((*at)[1]);
+    }
     return names;
   }
 
@@ -190,17 +193,23 @@ TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
   const std::string text = page("use/results-folder.md");
   for (const std::string& name : names_in(folder)) EXPECT_THAT(text, HasSubstr("| `" + name + "` |"));
   EXPECT_EQ(named_in(text, "steps.csv"), read_table(folder / "steps.csv").header);
-  const auto expect_keys = [&](const nlohmann::json& json, const std::string& heading) {
+  const auto names_under = [&](const std::string& heading) {
     const auto named = named_in(text, heading);
-    std::set<std::string> keys;
-    for (const auto& item : json.items()) keys.insert(item.key());
-    EXPECT_EQ(std::set<std::string>(named.begin(), named.end()), keys) << heading;
+    return std::set<std::string>(named.begin(), named.end());
   };
+  const auto keys_in = [](const nlohmann::json& json, const std::string& within) {
+    std::set<std::string> keys;
+    for (const auto& item : json.items()) keys.insert(within + item.key());
+    return keys;
+  };
+  EXPECT_EQ(names_under("manifest.json"), keys_in(read_json(folder / "manifest.json"), ""));
   const auto stats = read_json(folder / "stats.json");
-  expect_keys(stats, "stats.json");
-  expect_keys(read_json(folder / "manifest.json"), "manifest.json");
-  for (const auto& inner : {stats["against_reference"], stats["ranges"][0]})
-    for (const auto& item : inner.items()) EXPECT_THAT(text, HasSubstr('`' + item.key() + '`'));
+  std::set<std::string> named = names_under("stats.json"), keys = keys_in(stats, "");
+  for (const std::string& total : named_in(text, "steps.csv", true))
+    if (total != "stats.json") named.insert(total); // the heading of the column of totals
+  keys.merge(keys_in(stats["against_reference"], "against_reference."));
+  EXPECT_EQ(named, keys);
+  for (const auto& item : stats["ranges"][0].items()) EXPECT_THAT(text, HasSubstr('`' + item.key() + '`'));
 }
 
 } // namespace

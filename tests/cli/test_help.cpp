@@ -1,6 +1,6 @@
 // --help, --version, and the promise that every example in a help text runs.
 #include "sim/levels/level.h"
-#include "tests/cli/cli_test.h"
+#include "tests/support/cli_test.h"
 
 #include <regex>
 

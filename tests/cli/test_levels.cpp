@@ -1,7 +1,7 @@
 // What a row of the table of levels says is what the program does with that level; and no verb takes a name
 // that the table does not have.
-#include "tests/cli/cli_test.h"
 #include "tests/cli/levels_by_name.h"
+#include "tests/support/cli_test.h"
 
 namespace hopmesh::tests {
 namespace {
@@ -53,9 +53,10 @@ TEST_P(CliLevel, MakesAWaveAsTheRowSays) {
   EXPECT_EQ(f.exit_code, level.can_wave ? 0 : 2) << f.err;
   EXPECT_EQ(fs::exists(at("w.vcd")), level.can_wave);
   EXPECT_EQ(fs::exists(at("r")), level.can_wave);
-  if (!level.can_wave)
+  if (!level.can_wave) {
     EXPECT_EQ(f.err, "hopmesh: --wave: found level " + GetParam() +
                          ", expected a level of the array: only those have signals\n");
+  }
 }
 
 TEST_P(CliLevel, IsComparedUnlessItIsARival) {

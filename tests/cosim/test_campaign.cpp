@@ -97,10 +97,10 @@ TEST_F(CampaignTest, AFaultIsFoundShrunkAndWrittenSoThatItShowsAgain) {
   ASSERT_TRUE(reader.next(again));
   EXPECT_TRUE(differs_in_child(two, again.job));
   std::uint64_t lines = 0;
-  EXPECT_EQ(check_answers("f", reader, again, *soft(small), lines), "");
+  EXPECT_EQ(check_answers("f", reader, again, soft(small.array, small.topology)->bus(), lines), "");
   VectorReader second(file.string());
   second.next(again);
-  EXPECT_THAT(check_answers("f", second, again, *faulty().make(small), lines),
+  EXPECT_THAT(check_answers("f", second, again, faulty().make(small.array, small.topology)->bus(), lines),
               HasSubstr("case found, sweep 2"));
   std::filesystem::remove_all(file.parent_path());
 }
@@ -145,20 +145,6 @@ TEST_F(CampaignTest, StopsWhenAskedAndSaysWhereToGoOn) {
   EXPECT_TRUE(r.interrupted);
   EXPECT_EQ(r.next, 0u);
   EXPECT_FALSE(r.finding);
-}
-
-TEST(InChild, TellsHowItEnded) {
-  EXPECT_EQ(in_child([] { return 7; }, 10), 7);
-  EXPECT_EQ(in_child([]() -> int { throw std::runtime_error("no"); }, 10), 98);
-  EXPECT_EQ(in_child([] { return std::raise(SIGKILL); }, 10), 100 + SIGKILL);
-  EXPECT_EQ(in_child(
-                [] {
-                  while (pause() == -1) {
-                  }
-                  return 0;
-                },
-                1),
-            100 + SIGALRM); // who hangs is ended
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // The array `descent` in SystemC: in exact integer arithmetic, the network's energy falls or stays in every
 // sweep, whatever the symmetric network. And the one order in which nothing is promised: all at once.
 #include "rtl_model/spec/array_rules.h"
-#include "tests/support/dut.h"
+#include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 
 #include <gtest/gtest.h>
@@ -12,15 +12,6 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 using Codes = std::vector<std::int32_t>;
-
-/// Word of the weight of neuron `to` (cell, p) from neuron `from`; the cells are equal or linked.
-std::size_t weight_word(const spec::Topology& t, std::size_t to, std::size_t p, std::size_t from,
-                        std::size_t q) {
-  std::size_t block = 0;
-  for (std::size_t k = t.first_link[to]; from != to && k < t.first_link[to + 1]; ++k)
-    if (t.link_to[k] == from) block = 1 + k - t.first_link[to];
-  return t.row_offset(to, p) + block * t.neurons_per_cell + q;
-}
 
 /// Calls visit(cell, p, other, q) for every weight there is.
 template <typename Visit> void for_each_weight(const spec::Topology& t, Visit visit) {
@@ -83,12 +74,6 @@ ArrayJob descending_job(std::uint64_t seed) {
     V = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(V, -array.formats.state.one_raw(), array.formats.state.one_raw()));
   return job;
-}
-
-void load(Dut& dut, const ArrayJob& job) {
-  ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
 }
 
 /// A device for each job: all are built before the first one runs.
@@ -180,7 +165,7 @@ TEST(CosimDescent, ABinaryNeuronThatHoldsItselfBackFlipsForEverAlone) {
   }
 }
 
-/// The same two neurons as below, with binary outputs and a cell each.
+/// The two neurons of the next test, with binary outputs and a cell each.
 TEST(CosimDescent, AllAtOnceTwoBinaryNeuronsFlipForEver) {
   const spec::Topology pair = topology_of(2, 1, {{0, 1}});
   spec::ArraySpec together = spec::descent_array(), in_turn = together;

@@ -141,7 +141,7 @@ TEST_F(Explain, ALoadedJobReadsTheWindowsBack) {
   SoftArray port(array, mesh.topology());
   const ArrayJob wanted = network(17);
   const cosim::BusArray there(port.bus(), wanted.topology);
-  there.load(wanted);
+  cosim::load(there, wanted);
   there.write(HM_REG_THRESHOLD, 5);
   there.write(HM_REG_MAX_SWEEPS, 17);
   const ArrayJob found = cosim::loaded_job(port.bus(), array, mesh.topology(), wanted.start);

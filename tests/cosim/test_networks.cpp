@@ -2,7 +2,7 @@
 // code, with sweeps, the convergence bit, the largest change and the cycles. Forty batches, one elaboration
 // each.
 #include "rtl_model/spec/array_rules.h"
-#include "tests/support/dut.h"
+#include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 
 #include <gtest/gtest.h>
@@ -19,12 +19,6 @@ struct Bench {
   Bench(std::uint64_t seed_of_job, const ArrayJob& a_job)
       : seed(seed_of_job), job(a_job), expected(run_slow_array(job, Keep::every_sweep)),
         dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
-
-  void load() {
-    ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
-    ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
-    ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
-  }
 
   void expect_run() {
     EXPECT_EQ(dut.read(HM_WINDOW_OUTPUT, job.topology.neurons()), expected.output());
@@ -59,7 +53,7 @@ Benches make_benches(int batch, int size = batch_size) {
 void run_all(const Benches& benches, systemc::Waking waking) {
   for (const auto& bench : benches) {
     SCOPED_TRACE(bench->text());
-    bench->load();
+    load(bench->dut, bench->job);
     bench->dut.device.wake(waking);
     bench->dut.start(bench->job.threshold, bench->job.max_sweeps);
   }
@@ -84,7 +78,7 @@ TEST_P(CosimNetworks, AfterEverySweep) {
   const Benches benches = make_benches(GetParam(), slower_batch_size);
   for (const auto& bench : benches) {
     SCOPED_TRACE(bench->text());
-    bench->load();
+    load(bench->dut, bench->job);
     for (std::size_t sweep = 0; sweep < bench->expected.history.size(); ++sweep) {
       bench->dut.start(0, 1);
       bench->dut.run_until_done();

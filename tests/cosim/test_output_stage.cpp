@@ -21,8 +21,7 @@ void expect_clean(const StageTally& t) {
 /// The module behind the two calls that the loops make.
 class StageUnderTest {
  public:
-  explicit StageUnderTest(const spec::ArraySpec& array)
-      : path_(array, array.formats.accumulator, 3), stage_("stage", path_) {}
+  explicit StageUnderTest(const spec::ArraySpec& array) : path_(array, 1, 3), stage_("stage", path_) {}
   std::int64_t normalise(std::int64_t s, std::int64_t n) {
     stage_.set_norm(n);
     stage_.normalise(s);

@@ -8,14 +8,9 @@
 namespace hopmesh::tests {
 namespace {
 
-/// Weight from neuron q of cell b to neuron p of cell a, looked up the slow way.
-std::int32_t weight_between(const ArrayJob& job, std::uint32_t a, int p, std::uint32_t b, int q) {
-  const spec::Topology& t = job.topology;
-  std::size_t block = 0;
-  for (std::size_t k = t.first_link[a]; a != b && k < t.first_link[a + 1]; ++k)
-    if (t.link_to[k] == b) block = k - t.first_link[a] + 1;
-  return job.weight[t.row_offset(a, static_cast<std::size_t>(p)) +
-                    block * static_cast<std::size_t>(t.neurons_per_cell) + static_cast<std::size_t>(q)];
+/// Weight from neuron q of cell b to neuron p of cell a.
+std::int32_t weight_between(const ArrayJob& job, std::size_t a, int p, std::size_t b, int q) {
+  return job.weight[weight_word(job.topology, a, p, b, q)];
 }
 
 std::size_t nonzero(const std::vector<std::int32_t>& codes) {

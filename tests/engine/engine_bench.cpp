@@ -2,8 +2,7 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_core.h"
-#include "sim/engine/fast_plan.h"
+#include "sim/engine/kernels/fast_core.h"
 #include "tests/support/slow_fixed.h"
 
 #include <cstdio>
@@ -22,8 +21,8 @@ spec::NumberFormat random_format(Dice& dice, int most_width, int least_integer_b
   f.width = static_cast<int>(dice.one_in(3) ? most_width : dice.between(4, most_width));
   const int most = dice.one_in(3) ? f.width - 1 : std::min(f.width - 1, least_integer_bits + 2);
   f.integer_bits = static_cast<int>(dice.between(least_integer_bits, most));
-  f.rounding = static_cast<spec::Rounding>(dice.below(7));
-  f.overflow = static_cast<spec::Overflow>(dice.below(4));
+  f.rounding = dice.mode<spec::Rounding>(spec::rounding_names);
+  f.overflow = dice.mode<spec::Overflow>(spec::overflow_names);
   return f;
 }
 
@@ -47,7 +46,7 @@ const std::vector<std::string>& kernels_here() {
 }
 
 std::string why_not_fast(const spec::ArraySpec& array, const spec::Topology& topology) {
-  return engine::why_no_kernel(engine::Plan(array, topology));
+  return engine::why_generic(engine::NeuronPlan(array, topology));
 }
 
 spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser,
@@ -57,7 +56,7 @@ spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, sp
   a.normaliser = normaliser;
   a.output = output;
   do {
-    a.schedule = static_cast<spec::Schedule>(dice.below(3));
+    a.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     a.lanes = static_cast<int>(dice.between(1, 6));
     a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
     a.bus_bits = 32 << dice.below(3);
@@ -83,7 +82,7 @@ Codes outputs(const Engine& e) {
 }
 
 void expect_result(const Engine& e, const ArrayResult& expected) {
-  const engine::RunResult& r = e.result();
+  const spec::Relaxation& r = e.result();
   EXPECT_EQ(outputs(e), expected.output());
   EXPECT_EQ(r.sweeps, expected.sweeps);
   EXPECT_EQ(r.converged, expected.converged);

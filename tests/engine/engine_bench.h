@@ -30,11 +30,6 @@ void expect_result(const engine::Engine& e, const ArrayResult& expected);
 /// Loads, runs and compares.
 void expect_run(engine::Engine& e, const ArrayJob& job, const ArrayResult& expected);
 
-inline bool same_swings(const engine::Extremes& a, const engine::Extremes& b) {
-  return a.least_sum == b.least_sum && a.largest_sum == b.largest_sum && a.least_drive == b.least_drive &&
-         a.largest_drive == b.largest_drive;
-}
-
 /// For SCOPED_TRACE.
 std::string text(const engine::Options& options);
 

@@ -3,7 +3,8 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/choose.h"
-#include "sim/engine/fast_core.h"
+#include "sim/engine/kernels/fast_core.h"
+#include "tests/support/complaint.h"
 
 #include <gmock/gmock.h>
 
@@ -17,12 +18,7 @@ const spec::Topology mesh = grid_topology(4, 5, true);
 
 /// What the engine throws for this kernel on this array; empty if it takes it.
 std::string refusal(const spec::ArraySpec& array, const std::string& kernel) {
-  try {
-    Engine(array, mesh, {1, kernel, 1});
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "";
+  return complaint<std::invalid_argument>([&] { Engine(array, mesh, {1, kernel, 1}); });
 }
 
 TEST(EngineChoices, AKernelThatNobodyKnowsIsNamed) {

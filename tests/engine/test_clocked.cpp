@@ -1,6 +1,6 @@
 // The clock-stepped engine beside the SystemC array woken by clock: every register of every neuron after
 // every clock; and at the end of a run the engine's.
-#include "sim/engine/clocked.h"
+#include "sim/engine/clocked/clocked.h"
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ void expect_registers(const ClockedEngine& e, const systemc::CellularArray& cell
   }
 }
 
-/// One run, clock by clock beside each other; returns how many clocks it took.
+/// A run, clock by clock beside each other; returns how many clocks it took.
 std::uint64_t expect_run_clock_by_clock(ClockedEngine& e, Dut& dut, const ArrayJob& job) {
   dut.write(HM_REG_IRQ_STATUS, ~0u);
   dut.start(job.threshold, job.max_sweeps);
@@ -61,7 +61,7 @@ std::uint64_t expect_run_clock_by_clock(ClockedEngine& e, Dut& dut, const ArrayJ
   return clock;
 }
 
-/// The same run by the engine, and by the clocked one in strides.
+/// A run by the engine, and by the clocked one in strides.
 void expect_end(const ClockedEngine& e, const ArrayJob& job, const std::vector<std::int32_t>& start,
                 Dice& dice) {
   engine::Engine fast(job.array, job.topology, {1, "auto", 1});
@@ -70,12 +70,12 @@ void expect_end(const ClockedEngine& e, const ArrayJob& job, const std::vector<s
   load_codes(strides, job);
   fast.write_outputs(0, words(start), start.size());
   strides.write_outputs(0, words(start), start.size());
-  const engine::RunResult r = fast.run(job.threshold, job.max_sweeps);
+  const spec::Relaxation r = fast.run(job.threshold, job.max_sweeps);
   strides.start(job.threshold, job.max_sweeps);
   while (strides.busy()) strides.step(1 + dice.below(50));
   std::vector<std::int32_t> outputs(job.topology.neurons());
   fast.read_outputs(0, reinterpret_cast<std::uint32_t*>(outputs.data()), outputs.size());
-  for (const engine::RunResult& c : {e.result(), strides.result()}) {
+  for (const spec::Relaxation& c : {e.result(), strides.result()}) {
     EXPECT_EQ(c.sweeps, r.sweeps);
     EXPECT_EQ(c.converged, r.converged);
     EXPECT_EQ(c.largest_change, r.largest_change);
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(All, ClockedKinds, testing::ValuesIn(kinds()), name_of_
 TEST(ClockedEngine, StaysIdleWithoutStartAndAfterTheEnd) {
   ClockedEngine e(spec::default_array(), grid_topology(2, 2, true));
   e.step(10);
-  EXPECT_EQ(e.segment(), ClockedEngine::idle);
+  EXPECT_EQ(e.segment(), spec::Segment::idle);
   EXPECT_FALSE(e.done());
   EXPECT_EQ(e.result().cycles, 0u);
   e.start(0, 0); // 0 sweeps are taken as 1

@@ -1,5 +1,6 @@
 // Runs behind the engine's bus: the firmware's driver from doubles to doubles, a wait that is stopped and
 // gone on with, and what a run takes over at START.
+#include "rtl_model/spec/array_rules.h"
 #include "sim/engine/device.h"
 #include "tests/engine/engine_bench.h"
 #include "tests/support/driver_case.h"
@@ -100,7 +101,7 @@ TEST(EngineDriver, IsToldThatTheArrayIsBusyAsLongAsNobodyWaits) {
 
 ArrayJob long_job() {
   Dice dice(1100000);
-  ArrayJob job = random_codes(dice, spec::ArraySpec{}, grid_topology(12, 12, true));
+  ArrayJob job = random_codes(dice, spec::descent_array(), grid_topology(12, 12, true));
   job.threshold = 0;
   job.max_sweeps = 60;
   return job;
@@ -147,7 +148,7 @@ TEST(EngineWait, WithAStopThatStandsComesBackAtOnceAndDoesNothing) {
 }
 
 TEST(EngineWait, ForALineThatNothingWillRaiseComesBack) {
-  Host host(spec::ArraySpec{}, ring_topology(3));
+  Host host(spec::descent_array(), ring_topology(3));
   EXPECT_EQ(host.wait(), HM_ERROR_STOPPED); // no run
   host.write(HM_REG_CONTROL, HM_CONTROL_START);
   EXPECT_EQ(host.wait(), HM_ERROR_STOPPED); // a run, but nobody asked for its interrupt

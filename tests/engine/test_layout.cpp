@@ -16,7 +16,7 @@ using spec::Schedule;
 struct Case {
   explicit Case(std::uint64_t seed) : dice(seed) {
     topology = seed % 4 ? random_topology(dice, 120) : grid_topology(13, 11, seed % 8 == 0);
-    schedule = static_cast<Schedule>(dice.below(3));
+    schedule = dice.mode<Schedule>(spec::schedule_names);
     chunk_cells = dice.one_in(3) ? 0 : static_cast<std::size_t>(1 + dice.below(40));
     phases = spec::phases_of(topology, schedule);
   }

@@ -10,7 +10,7 @@ namespace {
 using engine::Engine;
 using Words = std::vector<std::uint32_t>;
 
-/// One of the three memories, as a host sees it.
+/// A memory, one of three, as a host sees it.
 struct Memory {
   const char* name;
   void (Engine::*write)(std::size_t, const std::uint32_t*, std::size_t);
@@ -62,7 +62,7 @@ TEST(EngineMemories, KeepWhatIsWrittenInAnyBurst) {
     const spec::Topology topology = random_topology(dice, 60);
     const bool fast = !dice.one_in(4);
     const spec::ArraySpec array =
-        fast ? random_fast_array(dice, topology, static_cast<spec::Normaliser>(dice.below(3)))
+        fast ? random_fast_array(dice, topology, dice.mode<spec::Normaliser>(spec::normaliser_names))
              : random_array(dice, topology.most_taps());
     for (const std::string& kernel : fast ? kernels_here() : std::vector<std::string>{"auto"}) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", kernel " + kernel);

@@ -1,6 +1,7 @@
 // Random networks: the engine against the bit-serial array, raw code by raw code, with sweeps, the
 // convergence bit, the largest change and the cycles. Any array on the cores that take it, and arrays made
 // for the kernels on every kernel; each on several threads and with sweeps that follow each other.
+#include "rtl_model/spec/array_rules.h"
 #include "tests/engine/engine_bench.h"
 
 #include <set>
@@ -122,7 +123,7 @@ TEST(KernelStars, AsLargeAsTheirSumsAllow) {
   constexpr std::uint32_t arms = 21844;
   Edges edges;
   for (std::uint32_t k = 1; k <= arms + 1; ++k) edges.push_back({0, k});
-  spec::ArraySpec array;
+  spec::ArraySpec array = spec::descent_array();
   array.formats.bias = {16, 1, spec::Rounding::rnd, spec::Overflow::sat};
   EXPECT_EQ(why_not_fast(array, topology_of(arms + 2, 3, edges)), "rows of more than 65535 inputs");
   edges.pop_back();

@@ -9,7 +9,6 @@ namespace hopmesh::tests {
 namespace {
 
 using engine::Engine;
-using engine::Extremes;
 using engine::Options;
 
 /// A mesh of several chunks, on an array for the kernels, that moves for many sweeps.
@@ -25,7 +24,7 @@ ArrayJob lively_job(std::uint64_t seed, spec::Schedule schedule, const spec::Top
   return job;
 }
 
-Extremes extremes_of_plain_run(const ArrayJob& job) {
+spec::Extremes extremes_of_plain_run(const ArrayJob& job) {
   Engine e(job.array, job.topology, {1, "generic", 1});
   load(e, job);
   e.run(job.threshold, job.max_sweeps);
@@ -56,13 +55,13 @@ TEST_P(EngineRuns, ThatFollowEachOtherEndWherePlainOnesDo) {
     if (!ends.insert(sweeps).second) continue;
     ArrayResult expected{
         {whole.history[sweeps - 1]}, sweeps, true, changes[sweeps - 1], slow_cycles(job, sweeps)};
-    const Extremes swings = extremes_of_plain_run(job);
+    const spec::Extremes swings = extremes_of_plain_run(job);
     for (std::size_t followed : {2u, 3u, 7u}) {
       const Options options{1, kernels_here()[(sweeps + followed) % kernels_here().size()], followed};
       SCOPED_TRACE(text(options) + ", to end after sweep " + std::to_string(sweeps));
       Engine e(job.array, job.topology, options);
       expect_run(e, job, expected);
-      EXPECT_TRUE(same_swings(e.extremes(), swings)); // of the sweeps that count, not of those taken back
+      EXPECT_TRUE(e.extremes() == swings); // of the sweeps that count, not of those taken back
     }
   }
   EXPECT_GT(ends.size(), 3u); // in the middle of sevens, threes and pairs
@@ -94,7 +93,7 @@ TEST_P(EngineRuns, AreTheSameWithTwoAndThreeThreadsAndMore) {
   job.max_sweeps = 4;
   SCOPED_TRACE("seed " + std::to_string(seed()) + ": " + describe(job));
   const ArrayResult expected = run_slow_array(job);
-  const Extremes swings = extremes_of_plain_run(job);
+  const spec::Extremes swings = extremes_of_plain_run(job);
   std::vector<Options> ways{{8, "auto", 1}};
   for (const std::string& kernel : kernels_here()) ways.insert(ways.end(), {{2, kernel, 1}, {3, kernel, 1}});
   ways.push_back({2, "auto", 3}); // of several threads, to follow each other changes only the layout
@@ -103,7 +102,7 @@ TEST_P(EngineRuns, AreTheSameWithTwoAndThreeThreadsAndMore) {
     Engine e(job.array, job.topology, options);
     EXPECT_EQ(e.threads(), options.threads);
     expect_run(e, job, expected);
-    EXPECT_TRUE(same_swings(e.extremes(), swings));
+    EXPECT_TRUE(e.extremes() == swings);
   }
 }
 
@@ -126,7 +125,7 @@ TEST_P(EngineRuns, StoppedAfterEverySweepGoOnAsIfNothingWas) {
     EXPECT_GE(pieces * options.followed, expected.sweeps);
     EXPECT_GT(pieces, 3u);
     expect_result(e, expected);
-    EXPECT_TRUE(same_swings(e.extremes(), extremes_of_plain_run(job)));
+    EXPECT_TRUE(e.extremes() == extremes_of_plain_run(job));
   }
 }
 

@@ -21,7 +21,7 @@ void expect_everywhere(const ArrayJob& job) {
   }
 }
 
-/// Both outputs, every schedule.
+/// Each output, every schedule.
 void expect_in_every_schedule(Dice& dice, const spec::Topology& topology, std::uint32_t sweeps) {
   for (auto output : {spec::Output::modified, spec::Output::binary})
     for (int schedule = 0; schedule < 3; ++schedule) {

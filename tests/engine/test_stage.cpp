@@ -10,9 +10,9 @@
 namespace hopmesh::tests {
 namespace {
 
-using engine::Core;
 using engine::Layout;
-using engine::Plan;
+using engine::NeuronPlan;
+using engine::SweepCore;
 using spec::Normaliser;
 using spec::Rounding;
 
@@ -42,10 +42,10 @@ class Bank {
   void put_state(std::size_t k, std::int64_t V) {
     core_->put_state(slot(k), k % 3, static_cast<std::int32_t>(V));
   }
-  void fire() { core_->fire(0, layout_.blocks(), swept); }
+  void fire() { core_->fire(0, layout_.blocks(), record); }
   std::int64_t state(std::size_t k) const { return core_->state(slot(k), k % 3); }
 
-  engine::Swept swept;
+  engine::SweepRecord record;
 
  private:
   static spec::Topology pairs(std::size_t count) {
@@ -57,9 +57,9 @@ class Bank {
 
   const spec::ArraySpec array_;
   const spec::Topology topology_;
-  const Plan plan_;
+  const NeuronPlan plan_;
   const Layout layout_;
-  const std::unique_ptr<Core> core_;
+  const std::unique_ptr<SweepCore> core_;
 };
 
 /// An array for the kernels with this stage, `finer` places of the bias behind the weights', and of weights
@@ -194,8 +194,8 @@ class WideStage {
   /// u itself is seen only by its swings.
   void expect_drives() const {
     for (const auto& bank : banks_) {
-      EXPECT_EQ(bank->swept.all_extremes().least_drive, least_drive_);
-      EXPECT_EQ(bank->swept.all_extremes().largest_drive, largest_drive_);
+      EXPECT_EQ(bank->record.all_extremes().least_drive, least_drive_);
+      EXPECT_EQ(bank->record.all_extremes().largest_drive, largest_drive_);
     }
   }
 

@@ -3,7 +3,7 @@
 #include "tests/engine/engine_bench.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/engine/fast_core.h"
+#include "sim/engine/kernels/fast_core.h"
 
 namespace hopmesh::tests {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 using engine::Engine;
 using engine::KernelSet;
 using engine::Layout;
-using engine::Plan;
+using engine::NeuronPlan;
 
 // The kernels that `descent`-like arrays take ([3 neurons][multiply][plain]), behind counters: function
 // pointers carry no state, so that of the counters has to be static.
@@ -50,15 +50,15 @@ ArrayJob one_row(const Codes& row, std::int32_t V) {
 
 /// V of the row's neuron after one sweep on these kernels.
 std::int32_t sweep_once(const KernelSet& kernels, const ArrayJob& job) {
-  const Plan plan(job.array, job.topology);
+  const NeuronPlan plan(job.array, job.topology);
   const Layout layout(job.topology, spec::phases_of(job.topology, job.array.schedule), job.array.schedule);
   const auto core = engine::make_fast_core(plan, layout, kernels);
   core->put_weights(layout.slot_of_cell[0], 0, 0, job.weight.data(), 6);
   for (std::size_t k = 0; k < 6; ++k) core->put_state(layout.slot_of_cell[k / 3], k % 3, job.start[k]);
   core->prepare(0, layout.blocks());
   core->begin_run();
-  engine::Swept swept;
-  core->fire(0, layout.blocks(), swept);
+  engine::SweepRecord record;
+  core->fire(0, layout.blocks(), record);
   return core->state(layout.slot_of_cell[0], 0);
 }
 

@@ -20,7 +20,7 @@ struct Bench {
     engine::Engine e(job.array, job.topology, options);
     load(e, job);
     e.run(job.threshold, job.max_sweeps);
-    const systemc::Extremes& x = dut.device.cells.extremes;
+    const spec::Extremes& x = dut.device.cells.extremes;
     EXPECT_EQ(e.extremes().least_sum, x.least_sum);
     EXPECT_EQ(e.extremes().largest_sum, x.largest_sum);
     EXPECT_EQ(e.extremes().least_drive, x.least_drive);

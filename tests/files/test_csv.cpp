@@ -1,24 +1,26 @@
 // Every number in a table reads back as the same bits.
 #include "sim/files/csv.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <sstream>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
 
+using namespace files;
+
 TEST(Csv, TableLooksAsExpected) {
-  const tests::Folder folder;
+  const Folder folder;
   CsvWriter file(folder / "a.csv", {"step", "time", "converged", "note"});
   file.cell(1).cell(0.1).cell(true).cell("plain").end_row();
   file.cell(std::uint64_t{18446744073709551615u}).cell(1e-300).cell(false).cell("a, \"b\"").end_row();
   file.commit();
-  EXPECT_EQ(tests::content_of(folder / "a.csv"), "step,time,converged,note\n"
-                                                 "1,0.1,1,plain\n"
-                                                 "18446744073709551615,1e-300,0,\"a, \"\"b\"\"\"\n");
+  EXPECT_EQ(content_of(folder / "a.csv"), "step,time,converged,note\n"
+                                          "1,0.1,1,plain\n"
+                                          "18446744073709551615,1e-300,0,\"a, \"\"b\"\"\"\n");
 }
 
 TEST(Csv, DoublesRoundTrip) {
@@ -31,11 +33,11 @@ TEST(Csv, DoublesRoundTrip) {
                                 limits::min(),
                                 limits::denorm_min(),
                                 -limits::infinity()};
-  const tests::Folder folder;
+  const Folder folder;
   CsvWriter file(folder / "a.csv", std::vector<std::string>(row.size(), "x"));
   file.row(row);
   file.commit();
-  std::istringstream text(tests::content_of(folder / "a.csv"));
+  std::istringstream text(content_of(folder / "a.csv"));
   std::string line, cell;
   std::getline(text, line);
   for (const double value : row) {
@@ -46,10 +48,10 @@ TEST(Csv, DoublesRoundTrip) {
 }
 
 TEST(Csv, RowOfWrongLengthIsAProgrammersError) {
-  const tests::Folder folder;
+  const Folder folder;
   CsvWriter file(folder / "a.csv", {"a", "b"});
   EXPECT_THROW(file.row({1.0}), std::logic_error);
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

@@ -1,11 +1,14 @@
 // Pictures come in as they were made: PGM written by hand, PNG by our own encoder.
 #include "sim/files/grey_picture.h"
 #include "sim/files/png.h"
+#include "tests/support/complaint.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -32,28 +35,23 @@ TEST(GreyPicture, ReadsPngAndKeepsItsGreys) {
   EXPECT_THAT(p.shade, ElementsAre(0, 0.2, 1, 0)) << "what is transparent lies on black";
 }
 
-std::string complaint(std::string_view bytes) {
-  try {
-    read_grey(bytes);
-  } catch (const NoPicture& why) {
-    return why.what();
-  }
-  return "";
+std::string refusal(std::string_view bytes) {
+  return complaint<NoPicture>([&] { read_grey(bytes); });
 }
 
 TEST(GreyPicture, SaysWhatIsNone) {
-  EXPECT_THAT(complaint(""), HasSubstr("no picture"));
-  EXPECT_THAT(complaint("P6 1 1 255 abc"), HasSubstr("no picture"));
-  EXPECT_THAT(complaint("P2 x"), HasSubstr("without a width"));
-  EXPECT_THAT(complaint("P2 1"), HasSubstr("without a height"));
-  EXPECT_THAT(complaint("P2 1 0 3"), HasSubstr("1 x 0 pixels"));
-  EXPECT_THAT(complaint("P2 99999 1 3"), HasSubstr("99999 x 1 pixels"));
-  EXPECT_THAT(complaint("P2 1 1 0 0"), HasSubstr("white is 0"));
-  EXPECT_THAT(complaint("P2 2 1 3 1"), HasSubstr("without all its pixels"));
-  EXPECT_THAT(complaint("P2 1 1 3 4"), HasSubstr("brighter than its white"));
-  EXPECT_THAT(complaint("P5 2 2 255 ab"), HasSubstr("ends early"));
-  EXPECT_THAT(complaint("\x89PNG\r\n\x1a\nrest"), HasSubstr("libpng refuses"));
+  EXPECT_THAT(refusal(""), HasSubstr("no picture"));
+  EXPECT_THAT(refusal("P6 1 1 255 abc"), HasSubstr("no picture"));
+  EXPECT_THAT(refusal("P2 x"), HasSubstr("without a width"));
+  EXPECT_THAT(refusal("P2 1"), HasSubstr("without a height"));
+  EXPECT_THAT(refusal("P2 1 0 3"), HasSubstr("1 x 0 pixels"));
+  EXPECT_THAT(refusal("P2 99999 1 3"), HasSubstr("99999 x 1 pixels"));
+  EXPECT_THAT(refusal("P2 1 1 0 0"), HasSubstr("white is 0"));
+  EXPECT_THAT(refusal("P2 2 1 3 1"), HasSubstr("without all its pixels"));
+  EXPECT_THAT(refusal("P2 1 1 3 4"), HasSubstr("brighter than its white"));
+  EXPECT_THAT(refusal("P5 2 2 255 ab"), HasSubstr("ends early"));
+  EXPECT_THAT(refusal("\x89PNG\r\n\x1a\nrest"), HasSubstr("libpng refuses"));
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

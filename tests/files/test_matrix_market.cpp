@@ -1,7 +1,8 @@
 // Matrix Market files: the same bits back, what other programs write, and broken files told in a line.
 #include "sim/files/matrix_market.h"
 #include "sim/input/input_error.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <cstring>
@@ -9,8 +10,10 @@
 #include <limits>
 #include <random>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using testing::HasSubstr;
 
@@ -20,10 +23,7 @@ std::string text_of(const MatrixEntry& e) {
 
 class MatrixMarket : public testing::Test {
  protected:
-  std::string file(const std::string& text) const {
-    std::ofstream(folder_ / "m.mtx", std::ios::binary) << text;
-    return (folder_ / "m.mtx").string();
-  }
+  std::string file(const std::string& text) const { return folder_.write("m.mtx", text); }
   SparseMatrix read(const std::string& text) const { return read_matrix(file(text)); }
 
   static void expect_entries(const SparseMatrix& m, const std::vector<MatrixEntry>& expected) {
@@ -35,19 +35,15 @@ class MatrixMarket : public testing::Test {
     }
   }
 
-  std::string complaint(const std::string& text, bool vector = false) const {
+  std::string refusal(const std::string& text, bool vector = false) const {
     const std::string path = file(text);
-    try {
-      vector ? (void)read_vector(path) : (void)read_matrix(path);
-    } catch (const input::InputError& e) {
-      const std::string what = e.what();
-      EXPECT_EQ(what.rfind(path, 0), 0u) << what;
-      return what.substr(path.size());
-    }
-    return "read";
+    const std::string what = complaint([&] { vector ? (void)read_vector(path) : (void)read_matrix(path); });
+    if (what.empty()) return "read";
+    EXPECT_EQ(what.rfind(path, 0), 0u) << what;
+    return what.substr(path.size());
   }
 
-  tests::Folder folder_;
+  Folder folder_;
 };
 
 /// Any bits that are a finite double.
@@ -147,12 +143,12 @@ TEST_F(MatrixMarket, EveryMistakeIsToldWithItsLine) {
       {"%%MatrixMarket matrix array real general\n2 1\n1\n2\n3\n", ":5: found \"3\""},
       {"%%MatrixMarket matrix array real general\n2147483648 2147483648\n1\n", "found the end of the file"},
   };
-  for (const auto& [text, says] : broken) EXPECT_THAT(complaint(text), HasSubstr(says)) << text;
-  EXPECT_THAT(complaint("%%MatrixMarket matrix array real general\n1 2\n1\n2\n", true),
+  for (const auto& [text, says] : broken) EXPECT_THAT(refusal(text), HasSubstr(says)) << text;
+  EXPECT_THAT(refusal("%%MatrixMarket matrix array real general\n1 2\n1\n2\n", true),
               HasSubstr("found 1 x 2, expected a vector: one column"));
 }
 
-/// One byte changed, left out or put in, a line doubled, or the end cut off.
+/// A byte changed, left out or put in, a line doubled, or the end cut off.
 std::string spoilt(std::string text, std::mt19937_64& dice) {
   const std::size_t at = dice() % text.size();
   const std::string bytes = std::string("0123456789+-.eE %\n\r\tx") + '\0' + '\xff';
@@ -201,4 +197,4 @@ TEST_F(MatrixMarket, BrokenFilesAreReadWholeOrRefusedInOneLine) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

@@ -1,20 +1,23 @@
 // NumPy files, against bytes laid down by hand from the format's description.
 #include "sim/files/npy.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <cstring>
 #include <gmock/gmock.h>
 #include <limits>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Npy, BytesAreThoseOfTheFormat) {
-  const tests::Folder folder;
+  const Folder folder;
   NpyWriter<std::int32_t> file(folder / "a.npy", {1, 2});
   file.append(std::vector<std::int32_t>{1, -2});
   file.commit();
@@ -23,11 +26,11 @@ TEST(Npy, BytesAreThoseOfTheFormat) {
   const std::string expected = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dictionary + "\n" +
                                std::string("\x01\x00\x00\x00\xfe\xff\xff\xff", 8);
   EXPECT_EQ(expected.size(), 128u + 8u);
-  EXPECT_EQ(tests::content_of(folder / "a.npy"), expected);
+  EXPECT_EQ(content_of(folder / "a.npy"), expected);
 }
 
 TEST(Npy, DoublesComeBackBitForBit) {
-  const tests::Folder folder;
+  const Folder folder;
   using limits = std::numeric_limits<double>;
   const std::vector<double> row{0.1,      -0.0, limits::denorm_min(), limits::max(), limits::infinity(),
                                 1.0 / 3.0};
@@ -40,7 +43,7 @@ TEST(Npy, DoublesComeBackBitForBit) {
 }
 
 TEST(Npy, RunStoppedEarlyHasTheRowsItGotTo) {
-  const tests::Folder folder;
+  const Folder folder;
   NpyWriter<double> file(folder / "a.npy", {4, 3});
   for (int step = 0; step < 7; ++step) file.append(std::vector<double>(12, step));
   file.commit(); // the run was interrupted here; 400 steps were planned
@@ -51,13 +54,13 @@ TEST(Npy, RunStoppedEarlyHasTheRowsItGotTo) {
 }
 
 TEST(Npy, WithoutCommitNothingStays) {
-  const tests::Folder folder;
+  const Folder folder;
   { NpyWriter<double>(folder / "a.npy", {1, 1}).append(std::vector<double>{1}); }
   EXPECT_TRUE(folder.empty());
 }
 
 TEST(Npy, SingleRowsAreReadByIndex) {
-  const tests::Folder folder;
+  const Folder folder;
   NpyWriter<std::int32_t> file(folder / "a.npy", {2, 2});
   for (std::int32_t step = 0; step < 1000; ++step) file.append(std::vector<std::int32_t>{step, -step, 7, 8});
   file.commit();
@@ -69,22 +72,17 @@ TEST(Npy, SingleRowsAreReadByIndex) {
 }
 
 TEST(Npy, RowOfWrongLengthIsRefused) {
-  const tests::Folder folder;
+  const Folder folder;
   NpyWriter<double> file(folder / "a.npy", {2, 3});
   EXPECT_THROW(file.append(std::vector<double>(5)), WriteError);
 }
 
 std::string read_error(const std::filesystem::path& path) {
-  try {
-    read_npy<double>(path);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "no error";
+  return complaint<ReadError>([&] { read_npy<double>(path); });
 }
 
 TEST(Npy, OtherFilesAreRefusedByName) {
-  const tests::Folder folder;
+  const Folder folder;
   write_file(folder / "text.npy", "not an array");
   EXPECT_THAT(read_error(folder / "text.npy"), HasSubstr("not a NumPy 1.0 array file"));
   EXPECT_THAT(read_error(folder / "missing.npy"), HasSubstr("cannot be opened"));
@@ -94,7 +92,7 @@ TEST(Npy, OtherFilesAreRefusedByName) {
 }
 
 TEST(Npy, FileCutShortIsRefused) {
-  const tests::Folder folder;
+  const Folder folder;
   NpyWriter<double> file(folder / "a.npy", {2, 3});
   file.append(std::vector<double>(6));
   file.commit();
@@ -103,4 +101,4 @@ TEST(Npy, FileCutShortIsRefused) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

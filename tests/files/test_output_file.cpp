@@ -1,6 +1,7 @@
 // Whatever goes wrong, under the final name stands a whole file or none.
 #include "sim/files/output_file.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 
 #include <csignal>
 #include <functional>
@@ -9,20 +10,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using testing::HasSubstr;
 
 /// The message of the WriteError that the work ends in; it must be one line.
 std::string error_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const WriteError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "no error";
+  const std::string error = complaint<WriteError>(work);
+  EXPECT_EQ(error.find('\n'), std::string::npos);
+  return error;
 }
 
 /// Runs the work in a process of its own, whose limits and rights it may change; its exit status.
@@ -35,19 +34,19 @@ int in_child(const std::function<int()>& work) {
 }
 
 TEST(OutputFile, HasItsNameOnlyAfterCommit) {
-  const tests::Folder folder;
+  const Folder folder;
   OutputFile file(folder / "a.txt");
   file.write("one ");
   file.write("two");
   EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
   EXPECT_TRUE(std::filesystem::exists(folder / "a.txt.part"));
   file.commit();
-  EXPECT_EQ(tests::content_of(folder / "a.txt"), "one two");
+  EXPECT_EQ(content_of(folder / "a.txt"), "one two");
   EXPECT_FALSE(std::filesystem::exists(folder / "a.txt.part"));
 }
 
 TEST(OutputFile, ExceptionLeavesNothing) {
-  const tests::Folder folder;
+  const Folder folder;
   try {
     OutputFile file(folder / "a.txt");
     file.write("half");
@@ -58,14 +57,14 @@ TEST(OutputFile, ExceptionLeavesNothing) {
 }
 
 TEST(OutputFile, ExceptionKeepsTheOlderFile) {
-  const tests::Folder folder;
+  const Folder folder;
   write_file(folder / "a.txt", "older");
   { OutputFile(folder / "a.txt").write("newer, not committed"); }
-  EXPECT_EQ(tests::content_of(folder / "a.txt"), "older");
+  EXPECT_EQ(content_of(folder / "a.txt"), "older");
 }
 
 TEST(OutputFile, KilledRunLeavesNoFinalFileAndTheNextTakesOver) {
-  const tests::Folder folder;
+  const Folder folder;
   const int status = in_child([&] {
     OutputFile file(folder / "a.txt");
     file.write(std::string(3u << 20, 'x'));
@@ -75,31 +74,31 @@ TEST(OutputFile, KilledRunLeavesNoFinalFileAndTheNextTakesOver) {
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
   write_file(folder / "a.txt", "second run");
-  EXPECT_EQ(tests::content_of(folder / "a.txt"), "second run");
+  EXPECT_EQ(content_of(folder / "a.txt"), "second run");
 }
 
 TEST(OutputFile, TwoWritersOfOneFileAreRefused) {
-  const tests::Folder folder;
+  const Folder folder;
   OutputFile first(folder / "a.txt");
   EXPECT_THAT(error_of([&] { OutputFile second(folder / "a.txt"); }),
               HasSubstr("another run is writing this file"));
   first.write("first");
   first.commit();
-  EXPECT_EQ(tests::content_of(folder / "a.txt"), "first");
+  EXPECT_EQ(content_of(folder / "a.txt"), "first");
 }
 
 TEST(OutputFile, PatchReplacesBytesAndWritingGoesOnAtTheEnd) {
-  const tests::Folder folder;
+  const Folder folder;
   OutputFile file(folder / "a.txt");
   file.write("count=?? values");
   file.patch(6, "17");
   file.write(" end");
   file.commit();
-  EXPECT_EQ(tests::content_of(folder / "a.txt"), "count=17 values end");
+  EXPECT_EQ(content_of(folder / "a.txt"), "count=17 values end");
 }
 
 TEST(OutputFile, LargeWritesKeepTheirOrder) {
-  const tests::Folder folder;
+  const Folder folder;
   std::string expected;
   OutputFile file(folder / "a.bin");
   for (const std::size_t size : {1u, 700'000u, 700'000u, 3'000'000u, 5u}) {
@@ -108,18 +107,18 @@ TEST(OutputFile, LargeWritesKeepTheirOrder) {
     expected += piece;
   }
   file.commit();
-  EXPECT_EQ(tests::content_of(folder / "a.bin"), expected);
+  EXPECT_EQ(content_of(folder / "a.bin"), expected);
 }
 
 TEST(OutputFile, MissingFolderIsNamed) {
-  const tests::Folder folder;
+  const Folder folder;
   const auto path = folder / "missing/a.txt";
   EXPECT_EQ(error_of([&] { write_file(path, "x"); }),
             path.string() + ": cannot create: No such file or directory");
 }
 
 TEST(OutputFile, FolderInPlaceOfAFileIsRefused) {
-  const tests::Folder folder;
+  const Folder folder;
   EXPECT_THAT(error_of([&] { write_file(folder.path(), "x"); }), HasSubstr("Is a directory"));
 }
 
@@ -129,7 +128,7 @@ TEST(OutputFile, FullDiskIsToldAtOnce) {
 }
 
 TEST(OutputFile, DiskThatFillsUpLeavesNothing) {
-  const tests::Folder folder;
+  const Folder folder;
   const int status = in_child([&] {
     const rlimit limit{1u << 20, 1u << 20};
     ::signal(SIGXFSZ, SIG_IGN);
@@ -142,7 +141,7 @@ TEST(OutputFile, DiskThatFillsUpLeavesNothing) {
 }
 
 TEST(OutputFile, ForbiddenFolderIsToldBeforeWorkStarts) {
-  const tests::Folder folder;
+  const Folder folder;
   std::filesystem::permissions(folder.path(),
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec |
                                    std::filesystem::perms::others_read | std::filesystem::perms::others_exec);
@@ -159,30 +158,30 @@ TEST(OutputFile, ForbiddenFolderIsToldBeforeWorkStarts) {
 }
 
 TEST(CheckWritable, MakesTheFolderAndLeavesItEmpty) {
-  const tests::Folder folder;
+  const Folder folder;
   check_writable(folder / "deep/er", 1000);
   EXPECT_TRUE(std::filesystem::is_empty(folder / "deep/er"));
 }
 
 TEST(CheckWritable, ClearsAwayWhatAKilledProbeLeft) {
-  const tests::Folder folder;
+  const Folder folder;
   write_file(folder / ".writable", "");
   check_writable(folder.path(), 0);
   EXPECT_TRUE(folder.empty());
 }
 
 TEST(CheckWritable, TellsHowMuchSpaceIsMissing) {
-  const tests::Folder folder;
+  const Folder folder;
   const auto message = error_of([&] { check_writable(folder.path(), std::uint64_t{1} << 62); });
   EXPECT_THAT(message, HasSubstr("4611686.0 TB are needed"));
   EXPECT_THAT(message, HasSubstr("No space left on device"));
 }
 
 TEST(CheckWritable, FileInTheWayIsNamed) {
-  const tests::Folder folder;
+  const Folder folder;
   write_file(folder / "out", "a file");
   EXPECT_THAT(error_of([&] { check_writable(folder / "out", 1); }), HasSubstr((folder / "out").string()));
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

@@ -1,22 +1,20 @@
 // A file that grew while its writer was killed or stopped: what of it may be written on, and what not.
 #include "sim/files/folder_lock.h"
 #include "sim/files/npy.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <csignal>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace hopmesh::files {
+namespace hopmesh::tests {
 namespace {
+
+using namespace files;
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 class StreamRestTest : public testing::Test {
  protected:
@@ -32,7 +30,7 @@ class StreamRestTest : public testing::Test {
   }
   std::optional<StreamRest> find(const StreamMark& mark) { return find_rest(path, mark, "head, ", found); }
 
-  const tests::Folder folder;
+  const Folder folder;
   const fs::path path = folder / "a.txt", part = folder / "a.txt.part";
   std::string found;
 };
@@ -40,7 +38,7 @@ class StreamRestTest : public testing::Test {
 TEST_F(StreamRestTest, WhatWasMadeSafeStaysWithoutCommit) {
   const StreamMark mark = left("more");
   EXPECT_EQ(mark.bytes, 10u);
-  EXPECT_EQ(tests::content_of(part).substr(0, 10), "HEAD, body");
+  EXPECT_EQ(content_of(part).substr(0, 10), "HEAD, body");
   EXPECT_FALSE(fs::exists(path));
 }
 
@@ -48,11 +46,11 @@ TEST_F(StreamRestTest, IsTakenUpWhereItWasMarked) {
   auto rest = find(left("more"));
   ASSERT_TRUE(rest) << found;
   OutputFile file(path, std::move(*rest));
-  EXPECT_EQ(tests::content_of(part), "head, body");
+  EXPECT_EQ(content_of(part), "head, body");
   file.write(" goes on");
   EXPECT_EQ(file.bytes(), 18u);
   file.commit();
-  EXPECT_EQ(tests::content_of(path), "head, body goes on");
+  EXPECT_EQ(content_of(path), "head, body goes on");
   EXPECT_FALSE(fs::exists(part));
 }
 
@@ -73,7 +71,7 @@ TEST_F(StreamRestTest, IsTakenUpFromItsFinalNameToo) {
   EXPECT_EQ(rest->found, path);
   OutputFile(path, std::move(*rest)).write("lost, never safe");
   EXPECT_FALSE(fs::exists(path));
-  EXPECT_EQ(tests::content_of(part), "head, body");
+  EXPECT_EQ(content_of(part), "head, body");
 }
 
 TEST_F(StreamRestTest, ThePartGoesBeforeTheFile) {
@@ -92,7 +90,7 @@ TEST_F(StreamRestTest, WhatDoesNotFitIsToldAndLeftAlone) {
   write_text(part, "HEAD, bodi");
   EXPECT_FALSE(find(mark));
   EXPECT_THAT(found, HasSubstr("a.txt.part with check "));
-  EXPECT_EQ(tests::content_of(part), "HEAD, bodi");
+  EXPECT_EQ(content_of(part), "HEAD, bodi");
   fs::remove(part);
   EXPECT_FALSE(find(mark));
   EXPECT_EQ(found, "neither a.txt.part nor a.txt");
@@ -128,7 +126,7 @@ TEST_F(StreamRestTest, ArraysGoOnBehindTheirRows) {
 }
 
 TEST(FolderLock, IsHeldByOneAndLeavesNothing) {
-  const tests::Folder folder;
+  const Folder folder;
   {
     FolderLock first(folder.path());
     const FolderLock moved(std::move(first));
@@ -139,7 +137,7 @@ TEST(FolderLock, IsHeldByOneAndLeavesNothing) {
 }
 
 TEST(FolderLock, EndsWithItsProcess) {
-  const tests::Folder folder;
+  const Folder folder;
   const pid_t child = ::fork();
   if (child == 0) {
     const FolderLock lock(folder.path());
@@ -152,4 +150,4 @@ TEST(FolderLock, EndsWithItsProcess) {
 }
 
 } // namespace
-} // namespace hopmesh::files
+} // namespace hopmesh::tests

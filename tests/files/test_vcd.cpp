@@ -1,6 +1,6 @@
 // The VCD writer, read back by a reader of its own.
 #include "sim/files/vcd.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 #include "tests/support/vcd.h"
 
 #include <gtest/gtest.h>

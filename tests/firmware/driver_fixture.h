@@ -2,6 +2,7 @@
 // expect.
 #pragma once
 
+#include "rtl_model/spec/capabilities.h"
 #include "tests/support/bus_mock.h"
 #include "tests/support/firmware_mesh.h"
 #include "tests/support/slow_fixed.h"
@@ -24,11 +25,6 @@ struct FakeArray {
   spec::NumberFormat bias{24, 9, spec::Rounding::rnd, spec::Overflow::sat};
   spec::NumberFormat state{16, 2, spec::Rounding::trn_zero, spec::Overflow::sat};
 };
-
-inline std::uint32_t packed(const spec::NumberFormat& f) {
-  return static_cast<std::uint32_t>(f.width) | static_cast<std::uint32_t>(f.integer_bits) << 8 |
-         static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
-}
 
 /// A path of three free nodes 0 - 1 - 2, held by the pinned node 3: planar, so that it can be checked by
 /// hand.
@@ -63,9 +59,9 @@ class DriverTest : public testing::Test {
     expect_bursts(false, HM_WINDOW_LINK, {mesh.mesh.link_to, mesh.mesh.link_to + links});
     bus.expect_read(HM_REG_CAP_NORMALISER, array.normaliser);
     bus.expect_read(HM_REG_CAP_OUTPUT, array.output);
-    bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, packed(array.weight));
-    bus.expect_read(HM_REG_CAP_FORMAT_BIAS, packed(array.bias));
-    bus.expect_read(HM_REG_CAP_FORMAT_STATE, packed(array.state));
+    bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, spec::format_word(array.weight));
+    bus.expect_read(HM_REG_CAP_FORMAT_BIAS, spec::format_word(array.bias));
+    bus.expect_read(HM_REG_CAP_FORMAT_STATE, spec::format_word(array.state));
     bus.expect_write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
   }
   int open() {

@@ -1,4 +1,4 @@
-// One random mesh as the firmware and as the reference see it, for tests that compare what they make of it.
+// A random mesh as the firmware and as the reference see it, for tests that compare what they make of it.
 #pragma once
 
 #include "sim/reference/reference.h"
@@ -9,6 +9,7 @@ extern "C" {
 #include "firmware/integrator.h"
 }
 
+#include <algorithm>
 #include <cmath>
 
 namespace hopmesh::tests {
@@ -65,9 +66,15 @@ struct Pair {
   FirmwareMesh firmware;
 };
 
-inline reference::Motion reference_motion(const hm_motion& m) {
+/// The two tables of formulations are in one order: a test of the integrator compares their names.
+inline const reference::Formulation* reference_formulation(const hm_formulation* of_firmware) {
+  const auto at = std::find(std::begin(hm_formulations), std::end(hm_formulations), of_firmware);
+  return reference::formulations[at - std::begin(hm_formulations)];
+}
+
+inline reference::Motion reference_motion(const hm_step_parameters& m) {
   reference::Motion r{};
-  r.rule = static_cast<reference::Rule>(m.rule), r.mass = m.mass, r.drag = m.drag;
+  r.formulation = reference_formulation(m.formulation), r.mass = m.mass, r.drag = m.drag;
   r.time_step = m.time_step, r.friction = m.friction, r.gamma = m.gamma, r.beta = m.beta;
   r.acceleration_memory = m.acceleration_memory;
   r.energy_of_all_springs = m.energy_of_all_springs != 0;

@@ -23,6 +23,22 @@ TEST_F(DriverTest, OpenLearnsFormatsFromTheCapabilities) {
   EXPECT_EQ(driver.state.width, 16);
 }
 
+/// The driver takes format words apart by itself; here they are what spec puts together.
+TEST_F(DriverTest, OpenTakesEveryModeApart) {
+  for (std::size_t q = 0; q < spec::rounding_names.size(); ++q)
+    for (std::size_t o = 0; o < spec::overflow_names.size(); ++o) {
+      FakeArray array;
+      array.state = {static_cast<int>(4 + 7 * o), static_cast<int>(1 + o), static_cast<spec::Rounding>(q),
+                     static_cast<spec::Overflow>(o)};
+      expect_open(array);
+      ASSERT_EQ(open(), HM_OK);
+      EXPECT_EQ(driver.state.width, array.state.width);
+      EXPECT_EQ(driver.state.integer_bits, array.state.integer_bits);
+      EXPECT_EQ(driver.state.rounding, static_cast<int>(q));
+      EXPECT_EQ(driver.state.overflow, static_cast<int>(o));
+    }
+}
+
 TEST_F(DriverTest, OpenReadsLongWindowsInPiecesOfTheBuffer) {
   buffer.resize(3); // FIRST_LINK has 4 words, LINK 4
   expect_open({});

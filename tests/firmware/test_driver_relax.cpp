@@ -1,4 +1,4 @@
-// One relaxation as the bus sees it: what is written, in which order, with which codes; and what goes wrong.
+// A relaxation as the bus sees it: what is written, in which order, with which codes; and what goes wrong.
 #include "tests/firmware/driver_fixture.h"
 
 #include <limits>

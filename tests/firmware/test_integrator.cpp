@@ -3,6 +3,7 @@
 
 extern "C" {
 #include "firmware/bus.h"
+#include "firmware/springs.h"
 }
 
 #include <gtest/gtest.h>
@@ -63,9 +64,9 @@ struct Moving {
   hm_state state{};
 };
 
-hm_motion random_motion(Dice& dice) {
-  hm_motion m{};
-  m.rule = static_cast<int>(dice.below(4));
+hm_step_parameters random_parameters(Dice& dice) {
+  hm_step_parameters m{};
+  m.formulation = hm_formulations[dice.below(std::size(hm_formulations))];
   m.mass = 0.2 + dice.unit(), m.drag = dice.one_in(2) ? 0 : 3 * dice.unit();
   m.time_step = 0.05, m.friction = 0.99, m.gamma = dice.one_in(2) ? 40 : 4000,
   m.beta = dice.one_in(3) ? 0 : 1;
@@ -99,17 +100,17 @@ class TwentySteps : public testing::TestWithParam<int> {};
 TEST_P(TwentySteps, FollowTheReference) {
   Dice dice(GetParam());
   Pair pair(random_scene_mesh(dice, dice.one_in(2)));
-  hm_motion motion = random_motion(dice);
+  hm_step_parameters motion = random_parameters(dice);
   const hm_solver solver{nullptr, &relax_in_double};
   const reference::Order order = number_order(pair);
   reference::Motion same = reference_motion(motion);
   std::vector<double> node_force;
-  if (motion.rule != HM_PROBE && dice.one_in(2)) {
+  if (motion.formulation != &hm_probe && dice.one_in(2)) {
     for (std::size_t k = 0; k < 3 * pair.scene.nodes(); ++k) node_force.push_back(dice.unit() - 0.5);
     motion.node_force = node_force.data();
     same.node_force = Eigen::Map<reference::Vector>(node_force.data(), Eigen::Index(node_force.size()));
   }
-  reference::State expected = reference::initial_state(pair.scene, same.rule);
+  reference::State expected = reference::initial_state(pair.scene, *same.formulation);
   Moving moving(pair);
   for (int step = 0; step < 20; ++step) {
     hm_step_result result;
@@ -122,7 +123,7 @@ TEST_P(TwentySteps, FollowTheReference) {
     ASSERT_LT(largest_difference(moving.acceleration, expected.acceleration), 1e-9 * scale)
         << "step " << step;
     ASSERT_EQ(moving.state.step, expected.step);
-    if (motion.rule != HM_PROBE && taken.scale > 1e-12) { // below, what is left to do is rounding
+    if (motion.formulation != &hm_probe && taken.scale > 1e-12) { // below, what is left to do is rounding
       ASSERT_EQ(moving.state.scale, taken.scale) << "step " << step;
     }
     const double energy = reference::spring_energy(pair.scene, expected.position);
@@ -132,6 +133,68 @@ TEST_P(TwentySteps, FollowTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomMeshes, TwentySteps, testing::Range(1, 41));
+
+TEST(Formulations, AreTheReferencesByName) {
+  ASSERT_EQ(std::size(hm_formulations), std::size(reference::formulations));
+  for (std::size_t k = 0; k < std::size(hm_formulations); ++k) {
+    EXPECT_EQ(hm_formulations[k]->name, reference::formulations[k]->name);
+    EXPECT_EQ(hm_formulations[k]->looks_back != 0, reference::formulations[k]->looks_back);
+  }
+}
+
+/// A formulation that is none of ours: every node falls by its bias, and what hm_step called is kept in
+/// order.
+struct Falling {
+  static std::string& calls() {
+    static std::string text;
+    return text;
+  }
+  static void begin(hm_step_work* work) {
+    calls() += "begin ";
+    work->h = 2;
+  }
+  static void build(const hm_step_work* work) {
+    calls() += "build ";
+    work->state->network.bias[0] = 3;
+  }
+  static void weigh(const hm_step_work*) { calls() += "weigh "; }
+  static void next(const hm_step_work* work, std::uint32_t, hm_coordinate* next) {
+    for (std::uint32_t p = 0; p < work->mesh->components; ++p)
+      next[p] = {work->state->position[p] - work->h * work->state->network.bias[0], 7, 8};
+  }
+  static void finish(const hm_step_work* work) {
+    calls() += "finish at " + std::to_string(static_cast<int>(work->state->position[2]));
+  }
+  static int relax(void*, const hm_mesh*, hm_network*, double, std::uint32_t, hm_relaxation* result) {
+    calls() += "relax ";
+    *result = {5, 1, 100};
+    return HM_OK;
+  }
+};
+
+TEST(Integrator, WalksAFormulationsFunctionsInOrder) {
+  scene::Mesh one;
+  one.position = {{0, 0, 10}}, one.pinned = {false};
+  Pair pair(one);
+  Moving moving(pair);
+  moving.velocity = {1, 2, 3};
+  Falling::calls().clear();
+  const hm_formulation falling{
+      "falling",       1, &Falling::begin, &Falling::build, &hm_expand, &Falling::weigh, &Falling::next,
+      &Falling::finish};
+  hm_step_parameters parameters{};
+  parameters.formulation = &falling, parameters.expansions = 2;
+  const hm_solver solver{nullptr, &Falling::relax};
+  hm_step_result result;
+  ASSERT_EQ(hm_step(&pair.firmware.mesh, &parameters, &solver, &moving.state, &result), HM_OK);
+  EXPECT_EQ(Falling::calls(), "begin build relax build relax weigh finish at 4");
+  EXPECT_EQ(result.relaxation.sweeps, 10u);
+  EXPECT_EQ(moving.velocity, std::vector<double>({7, 7, 7}));
+  EXPECT_EQ(moving.acceleration, std::vector<double>({8, 8, 8}));
+  EXPECT_EQ(moving.previous_position, std::vector<double>({0, 0, 10})); // it looks back
+  EXPECT_EQ(moving.previous_velocity, std::vector<double>({1, 2, 3}));
+  EXPECT_EQ(moving.state.step, 1u);
+}
 
 /// No step was done: all that the next one starts from is as it was.
 void expect_untouched(const Moving& now, const Moving& before) {
@@ -146,7 +209,7 @@ void expect_untouched(const Moving& now, const Moving& before) {
 TEST(Integrator, ASolversErrorLeavesTheMotionAlone) {
   Dice dice(7);
   Pair pair(random_scene_mesh(dice, false));
-  const hm_motion motion = random_motion(dice);
+  const hm_step_parameters motion = random_parameters(dice);
   Moving moving(pair);
   for (double& v : moving.velocity) v = dice.unit();
   const Moving before = moving;
@@ -161,13 +224,13 @@ TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
   Dice dice(8);
   Pair pair(random_scene_mesh(dice, false));
   const hm_mesh& mesh = pair.firmware.mesh;
-  const hm_motion motion = random_motion(dice);
+  const hm_step_parameters motion = random_parameters(dice);
   const hm_solver solver{nullptr, &relax_in_double};
   for (std::uint32_t cell : {0u, mesh.cells / 2, mesh.cells - 1}) {
     Moving moving(pair);
     const std::uint32_t node = mesh.node_of_cell[cell];
-    hm_motion wild = motion;
-    wild.rule = HM_PROBE;
+    hm_step_parameters wild = motion;
+    wild.formulation = &hm_probe;
     wild.gamma = 0; // nobody else is pushed
     wild.acceleration_memory = 0;
     wild.friction = 1e308;
@@ -183,10 +246,10 @@ TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
 TEST(Integrator, AnImplicitStepThatIsLostChangesNothing) {
   Dice dice(9);
   Pair pair(random_scene_mesh(dice, false));
-  for (const int rule : {HM_BACKWARD_EULER, HM_BDF2}) {
+  for (const hm_formulation* formulation : {&hm_backward_euler, &hm_bdf2}) {
     Moving moving(pair);
-    hm_motion wild = random_motion(dice);
-    wild.rule = rule;
+    hm_step_parameters wild = random_parameters(dice);
+    wild.formulation = formulation;
     wild.friction = 1e308;
     moving.velocity[3 * pair.firmware.mesh.node_of_cell[0]] = 1e10;
     const Moving before = moving;

@@ -22,7 +22,8 @@ TEST(Network, IsTheReferencesEntryByEntry) {
     Dice dice(seed);
     Pair pair(random_scene_mesh(dice, dice.one_in(2)));
     hm_mesh& m = pair.firmware.mesh;
-    hm_motion motion{};
+    hm_step_parameters motion{};
+    motion.formulation = &hm_probe;
     motion.time_step = dice.one_in(2) ? 0.05 : 1.0, motion.beta = dice.one_in(4) ? 0.0 : dice.unit();
     const double dt = motion.time_step, h = dt * dt / 2;
 

@@ -1,6 +1,8 @@
 // Arrows between rooms go one way: each #include "..." line is held against a table.
 #include "tests/house/tree.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
 #include <regex>
@@ -15,11 +17,11 @@ using Rooms = std::set<std::string>;
 // never the arithmetic, so that their agreement is evidence. Nobody includes cli; tests may include anything.
 const std::map<std::string, Rooms> allowed = {
     {"firmware", {}},
-    {"rtl_model/spec", {}},
+    {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
-    {"sim/reference", {"sim/scene"}},
+    {"sim/reference", {"rtl_model/spec", "sim/scene"}},
     {"sim/rivals", {"sim/input", "sim/scene"}},
     {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/host_bus.h"}},
     {"sim/files", {"sim/input"}},
@@ -39,6 +41,24 @@ const std::map<std::string, Rooms> allowed = {
       "sim/cosim", "sim/networks", "sim/study"}},
 };
 
+// The machines of the engine: who may include whom. All of them may include the engine's root; of the root,
+// only choose.cpp includes machines. The clock-stepped machine computes with the generic one's arithmetic.
+const std::map<std::string, Rooms> machines = {
+    {"sim/engine/generic", {}},
+    {"sim/engine/kernels", {}},
+    {"sim/engine/clocked", {"sim/engine/generic"}},
+};
+
+// Oracles judge the models, so they derive everything by themselves from the pages: what the files whose
+// paths begin so may reach, beside each other. Of spec that is the description of an array and its order of
+// firing, and none of the facts that models share beyond that.
+const std::map<std::string, Rooms> oracles = {
+    {"tests/support/slow_",
+     {"rtl_model/spec/number_format.h", "rtl_model/spec/array_spec.h", "rtl_model/spec/topology.h",
+      "rtl_model/spec/colouring.h", "rtl_model/spec/schedule.h", "sim/cosim/array_job.h"}},
+    {"tests/other_core/", {}},
+};
+
 // Which rooms may know a library from outside. Firmware knows none but <stdint.h>.
 const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/levels", "sim/cli"}},
@@ -48,6 +68,17 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("toml.*"), {"sim/input"}},
     {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/files", "sim/pictures"}},
 };
+
+// The firmware's units by floor: a unit includes only units of floors below it. What all formulations of a
+// step stand on knows none of them.
+const std::vector<Rooms> firmware_floors = {{"bus", "host_bus", "registers", "doubles"},
+                                            {"network", "quantise"},
+                                            {"springs", "relax"},
+                                            {"driver", "step"},
+                                            {"formulation"},
+                                            {"incremental"},
+                                            {"probe", "implicit", "static"},
+                                            {"integrator"}};
 
 // Written by CMake when the build is configured.
 const std::set<std::string> generated = {"version.h", "place.h"};
@@ -65,6 +96,19 @@ bool may_include(const std::string& room, const std::string& included) {
   return other == room || others.count(other) || others.count(included);
 }
 
+/// "" for a file that belongs to no machine of the engine.
+std::string machine_of(const std::string& path) {
+  const std::string folder = path.substr(0, path.rfind('/'));
+  return machines.count(folder) ? folder : "";
+}
+
+/// Asked of files of the engine.
+bool may_include_machine(const std::string& path, const std::string& included) {
+  const std::string own = machine_of(path), other = machine_of(included);
+  if (other.empty() || other == own) return true;
+  return own.empty() ? path == "sim/engine/choose.cpp" : machines.at(own).count(other) > 0;
+}
+
 bool may_know(const std::string& room, const std::string& header) {
   if (room == "tests") return true;
   if (room == "firmware") return header == "stdint.h";
@@ -73,18 +117,53 @@ bool may_know(const std::string& room, const std::string& header) {
   return true;
 }
 
+std::vector<std::string> includes_of(const std::string& text) {
+  static const std::regex own("\\s*#\\s*include\\s*\"([^\"]+)\".*");
+  std::vector<std::string> included;
+  std::smatch part;
+  for (const std::string& line : lines_of(text))
+    if (std::regex_match(line, part, own)) included.push_back(part[1]);
+  return included;
+}
+
+/// Everything that a file includes, and what that includes in turn.
+void reach(const std::string& path, Rooms& reached) {
+  for (const std::string& included : includes_of(text_of(path)))
+    if (reached.insert(included).second) reach(included, reached);
+}
+
+/// What of all that an oracle reaches it may not.
+Rooms out_of_bounds(const std::string& oracle, const Rooms& reached) {
+  Rooms refused;
+  for (const std::string& path : reached)
+    if (!starts_with(path, oracle) && oracles.at(oracle).count(path) == 0) refused.insert(path);
+  return refused;
+}
+
 void judge_include(const TreeFile& file, const std::string& included) {
   if (generated.count(included)) return;
   EXPECT_FALSE(room_of(included).empty())
       << file.path << ": \"" << included << "\" is not written from the root of the tree";
   EXPECT_TRUE(may_include(room_of(file.path), included)) << file.path << " includes " << included;
+  EXPECT_TRUE(room_of(file.path) != "sim/engine" || may_include_machine(file.path, included))
+      << file.path << " includes " << included;
 }
 
-void judge_line(const TreeFile& file, const std::string& line) {
-  static const std::regex own("\\s*#\\s*include\\s*\"([^\"]+)\".*");
+std::size_t firmware_floor(const std::string& unit) {
+  const auto has_unit = [&](const Rooms& floor) { return floor.count(unit) > 0; };
+  const auto floor = std::find_if(firmware_floors.begin(), firmware_floors.end(), has_unit);
+  return static_cast<std::size_t>(floor - firmware_floors.begin());
+}
+
+bool firmware_may_include(const std::string& file, const std::string& included) {
+  const auto unit_of = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+  return unit_of(file) == unit_of(included) ||
+         firmware_floor(unit_of(file)) > firmware_floor(unit_of(included));
+}
+
+void judge_library(const TreeFile& file, const std::string& line) {
   static const std::regex outside("\\s*#\\s*include\\s*<([^>]+)>.*");
   std::smatch part;
-  if (std::regex_match(line, part, own)) judge_include(file, part[1]);
   if (std::regex_match(line, part, outside)) {
     EXPECT_TRUE(may_know(room_of(file.path), part[1])) << file.path << " includes <" << part[1] << ">";
   }
@@ -98,16 +177,49 @@ TEST(Arrows, everyRoomIsInTheTable) {
 TEST(Arrows, everyIncludeFollowsTheTable) {
   for (const TreeFile& file : tree_files({".h", ".c", ".cpp"})) {
     if (room_of(file.path) != "tests" && !allowed.count(room_of(file.path))) continue;
-    for (const std::string& line : lines_of(file.text)) judge_line(file, line);
+    for (const std::string& included : includes_of(file.text)) judge_include(file, included);
+    for (const std::string& line : lines_of(file.text)) judge_library(file, line);
+  }
+}
+
+TEST(Arrows, oraclesDeriveEverythingByThemselves) {
+  for (const auto& [oracle, facts] : oracles) {
+    Rooms reached;
+    std::size_t files = 0;
+    for (const TreeFile& file : tree_files({".h", ".cpp"}))
+      if (starts_with(file.path, oracle)) reach(file.path, reached), files += 1;
+    EXPECT_GT(files, 0u) << oracle;
+    EXPECT_EQ(out_of_bounds(oracle, reached), Rooms{}) << oracle;
+  }
+}
+
+TEST(Arrows, firmwareUnitsIncludeOnlyWhatIsBelowThem) {
+  for (const TreeFile& file : tree_files({".h", ".c"})) {
+    if (room_of(file.path) != "firmware") continue;
+    EXPECT_LT(firmware_floor(std::filesystem::path(file.path).stem()), firmware_floors.size()) << file.path;
+    for (const std::string& included : includes_of(file.text))
+      EXPECT_TRUE(firmware_may_include(file.path, included)) << file.path << " includes " << included;
   }
 }
 
 TEST(Arrows, theTableRefusesWhatItShould) {
+  EXPECT_FALSE(firmware_may_include("firmware/springs.c", "firmware/formulation.h"));
+  EXPECT_FALSE(firmware_may_include("firmware/probe.c", "firmware/static.h"));
+  EXPECT_TRUE(firmware_may_include("firmware/integrator.c", "firmware/formulation.h"));
+  EXPECT_EQ(out_of_bounds("tests/support/slow_", {"rtl_model/spec/points.h", "rtl_model/spec/schedule.h"}),
+            Rooms{"rtl_model/spec/points.h"});
+  EXPECT_EQ(out_of_bounds("tests/other_core/", {"rtl_model/spec/array_spec.h"}),
+            Rooms{"rtl_model/spec/array_spec.h"});
+  EXPECT_TRUE(may_include("sim/reference", "rtl_model/spec/array_spec.h"));
+  EXPECT_FALSE(may_include("rtl_model/spec", "firmware/driver.h"));
   EXPECT_FALSE(may_include("rtl_model/systemc", "firmware/driver.h"));
   EXPECT_TRUE(may_include("rtl_model/systemc", "firmware/registers.h"));
   EXPECT_FALSE(may_include("sim/reference", "rtl_model/systemc/device.h"));
   EXPECT_FALSE(may_include("sim/study", "sim/cli/options.h"));
   EXPECT_FALSE(may_include("sim/files", "tests/support/dut.h"));
+  EXPECT_FALSE(may_include_machine("sim/engine/kernels/kernel.h", "sim/engine/generic/lane_arithmetic.h"));
+  EXPECT_FALSE(may_include_machine("sim/engine/engine.cpp", "sim/engine/clocked/clocked.h"));
+  EXPECT_TRUE(may_include_machine("sim/engine/clocked/clocked_beats.h", "sim/engine/generic/drive_path.h"));
   EXPECT_FALSE(may_know("sim/study", "systemc"));
   EXPECT_FALSE(may_know("firmware", "stdlib.h"));
   EXPECT_TRUE(may_know("sim/study", "vector"));

@@ -1,10 +1,10 @@
 // What README and the pages of docs/use promise: commands run, the tour ends in a success, every flag of the
 // program is tried or told.
 #include "tests/house/tree.h"
+#include "tests/support/program.h"
 
 #include "place.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <regex>
@@ -33,12 +33,11 @@ std::string all_words_of_users() {
 }
 
 std::vector<std::string> verbs() {
-  const std::string help = run(HOPMESH_PROGRAM " --help").text;
-  return matches(help, "\n  ([a-z]+) {3,}");
+  return matches(run_shell(HOPMESH_PROGRAM " --help").out, "\n  ([a-z]+) {3,}");
 }
 
 std::string help_of(const std::string& verb) {
-  return run(HOPMESH_PROGRAM " " + verb + " --help").text;
+  return run_shell(HOPMESH_PROGRAM " " + verb + " --help").out;
 }
 
 TEST(Readme, everyFlagIsTriedOrTold) {
@@ -77,7 +76,7 @@ bool runs_the_program(const std::string& command) {
   return starts_with(command, "build/hopmesh ") || starts_with(command, "hopmesh ");
 }
 
-// The same command with three steps: whether it works shows in the first.
+// A command with three steps only: whether it works shows in the first.
 std::string shortened(const std::string& command) {
   static const std::regex long_verb("hopmesh (run|compare) ");
   if (command.find("--steps") != std::string::npos) return command;
@@ -87,25 +86,22 @@ std::string shortened(const std::string& command) {
 // A folder that looks like the tree after ./demo.
 class Commands : public testing::Test {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/hopmesh-readme-XXXXXX";
-    ASSERT_NE(mkdtemp(name), nullptr);
-    folder_ = name;
+  Commands() {
     for (const char* room : {"docs", "firmware", "rtl_model", "sim", "tests"})
       fs::create_symlink(fs::path(HOPMESH_SOURCE_DIR) / room, folder_ / room);
     fs::create_directory(folder_ / "build");
     fs::create_symlink(HOPMESH_PROGRAM, folder_ / "build/hopmesh");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string expect_to_run(const std::string& command) {
-    const Answer answer =
-        run("cd " + folder_.string() + " && export PATH=$PWD/build:$PATH && " + shortened(command));
-    EXPECT_EQ(answer.exit_code, 0) << command << "\n" << answer.text;
-    return answer.text;
+    Surroundings around;
+    around.folder = folder_.path();
+    const Finished f = run_shell("export PATH=$PWD/build:$PATH && " + shortened(command), around);
+    EXPECT_EQ(f.exit_code, 0) << command << "\n" << f.out << f.err;
+    return f.out;
   }
 
-  fs::path folder_;
+  Folder folder_;
 };
 
 TEST_F(Commands, ofThePagesOfUsersRun) {

@@ -3,12 +3,8 @@
 #include "place.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
-#include <sys/wait.h>
 
 namespace hopmesh::tests {
 
@@ -31,10 +27,7 @@ void take(const fs::directory_entry& entry, const std::vector<std::string>& endi
 } // namespace
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(root / path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return fs::exists(root / path) ? content_of(root / path) : "";
 }
 
 std::vector<TreeFile> tree_files(const std::vector<std::string>& endings) {
@@ -47,13 +40,6 @@ std::vector<TreeFile> tree_files(const std::vector<std::string>& endings) {
   return files;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 std::vector<std::string> matches(const std::string& text, const char* pattern) {
   const std::regex shape(pattern);
   std::vector<std::string> found;
@@ -64,16 +50,6 @@ std::vector<std::string> matches(const std::string& text, const char* pattern) {
 
 bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
-}
-
-Answer run(const std::string& command) {
-  Answer answer{"", -1};
-  FILE* pipe = popen(("(" + command + ") 2>&1 </dev/null").c_str(), "r");
-  char part[4096];
-  for (std::size_t n; (n = fread(part, 1, sizeof part, pipe)) > 0;) answer.text.append(part, n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
-  return answer;
 }
 
 } // namespace hopmesh::tests

@@ -1,8 +1,7 @@
 // The source tree as text, for tests that read it.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "tests/support/files.h"
 
 namespace hopmesh::tests {
 
@@ -18,16 +17,8 @@ std::vector<TreeFile> tree_files(const std::vector<std::string>& endings = {});
 /// The text of one file; empty where there is none.
 std::string text_of(const std::string& path);
 
-std::vector<std::string> lines_of(const std::string& text);
 /// The first group of a pattern wherever a text matches it, in order.
 std::vector<std::string> matches(const std::string& text, const char* pattern);
 bool starts_with(const std::string& text, const std::string& start);
-
-/// What a shell command prints on stdout and stderr, and how it ended.
-struct Answer {
-  std::string text;
-  int exit_code;
-};
-Answer run(const std::string& command);
 
 } // namespace hopmesh::tests

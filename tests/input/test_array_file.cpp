@@ -1,12 +1,14 @@
-// Array files: presets, every key, names. What may not be built is in bad/array_*.toml.
+// Array files: presets, every key, names. What may not be built is in tests/scene/bad/array.
 #include "rtl_model/spec/array_rules.h"
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
 
+using namespace scene;
+
 spec::ArraySpec array_of(const std::string& text) {
-  const TempFolder temp;
+  const Folder temp;
   return scene::read_inputs(folder + "good/every_key.toml", temp.write("small.toml", text), {}).array;
 }
 
@@ -64,4 +66,4 @@ TEST(ArrayFile, accumulatorIsExactOrAFormat) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::input {
+namespace hopmesh::tests {
 namespace {
+
+using namespace input;
 
 std::string sentence(const std::string& file, int line, const std::string& key, const std::string& found,
                      const std::string& expected, const std::string& nearest = "") {
@@ -59,4 +61,4 @@ TEST(InQuotes, showsBytesAsPrintableText) {
 }
 
 } // namespace
-} // namespace hopmesh::input
+} // namespace hopmesh::tests

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::levels {
+namespace hopmesh::tests {
 namespace {
+
+using namespace levels;
 
 using reference::Vector;
 
@@ -48,4 +50,4 @@ TEST(Alternation, IsNoneForASwingThatDies) {
 }
 
 } // namespace
-} // namespace hopmesh::levels
+} // namespace hopmesh::tests

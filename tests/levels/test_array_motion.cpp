@@ -2,6 +2,7 @@
 #include "sim/levels/array_motion.h"
 #include "sim/levels/bus_array.h"
 #include "sim/levels/reference_motion.h"
+#include "tests/support/complaint.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -117,12 +118,8 @@ TEST(ArrayMotion, AStoppedStepDidNotHappen) {
 TEST(ArrayMotion, ABrokenBusIsTold) {
   Rig rig(grid_scene(2, 3));
   rig.port.refuse = true;
-  try {
-    rig.motion.advance();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the bus refused a transfer"));
-  }
+  EXPECT_THAT(complaint<std::runtime_error>([&] { rig.motion.advance(); }),
+              HasSubstr("the bus refused a transfer"));
 }
 
 TEST(ArrayMotion, AnArrayBuiltForAnotherMeshIsTold) {
@@ -156,7 +153,7 @@ TEST(ArrayMotion, TakesEveryKeyOfTheMotion) {
   s.probe = {7, 8, 0.25, "all", "acceleration"};
   s.relax = {1e-3, 77, 3};
   s.force.gravity = {1, 2, 3}, s.force.wind = scene::Vector3{10, 20, 30};
-  const hm_motion m = levels::motion_of(s);
+  const hm_step_parameters m = levels::motion_of(s);
   EXPECT_EQ(
       std::vector<double>({m.time_step, m.friction, m.gamma, m.beta, m.acceleration_memory, m.threshold}),
       std::vector<double>({0.1, 0.5, 7, 8, 0.25, 1e-3}));

@@ -1,29 +1,28 @@
 // An image's pull: towards its edge from both sides, by the slope of the edge's strength, and none outside.
 #include "sim/levels/image_force.h"
+#include "tests/support/files.h"
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace hopmesh::levels {
+namespace hopmesh::tests {
 namespace {
+
+using namespace levels;
 
 /// Black on the left, white on the right of a picture of 41 x 21 pixels; the edge runs through column 20.
 class ImageForceTest : public ::testing::Test {
  protected:
   ImageForceTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "hopmesh-image-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data()) ? name : "";
-    std::ofstream file(folder_ + "/edge.pgm");
+    std::ofstream file(folder_ / "edge.pgm");
     file << "P2 41 21 2\n";
     for (int r = 0; r < 21; ++r)
       for (int c = 0; c < 41; ++c) file << (c < 20 ? 0 : c > 20 ? 2 : 1) << ' ';
     file.close();
-    scene.force.image = scene::ImageSpec{folder_ + "/edge.pgm", 0.5, 3, 2};
+    scene.force.image = scene::ImageSpec{folder_ / "edge.pgm", 0.5, 3, 2};
     scene.mesh.mass = 2;
   }
-  ~ImageForceTest() override { std::filesystem::remove_all(folder_); }
 
   /// At a pixel's place, y anywhere.
   std::vector<double> at(double column, double row) const {
@@ -33,7 +32,7 @@ class ImageForceTest : public ::testing::Test {
   scene::Scene scene;
 
  private:
-  std::string folder_;
+  Folder folder_;
 };
 
 TEST_F(ImageForceTest, PullsToTheEdgeFromBothSides) {
@@ -66,4 +65,4 @@ TEST_F(ImageForceTest, IsInProportionBetweenPixelsAndNothingOutside) {
 }
 
 } // namespace
-} // namespace hopmesh::levels
+} // namespace hopmesh::tests

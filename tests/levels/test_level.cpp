@@ -1,6 +1,6 @@
 // The table of levels: rows that can be told apart and made, lookups that refuse, and a row of a test's own.
 #include "sim/levels/level.h"
-#include "sim/rivals/method.h"
+#include "sim/rivals/integrator.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 

@@ -2,9 +2,6 @@
 // or absent, and one line for a bad window.
 #include "tests/levels/wave_file.h"
 
-#include "place.h"
-
-#include <algorithm>
 #include <csignal>
 #include <thread>
 
@@ -33,11 +30,13 @@ TEST_P(WaveFile, OfSomeCellsHoldsOnlyThose) {
 
 TEST_P(WaveFile, EndsWithTheOutputsOfTheRun) {
   const Vcd vcd = wave(nine + " --steps 3");
-  const auto codes = last_codes(9 * 3); // node 0 is pinned
+  const auto codes =
+      read_array(at("r/outputs_raw.npy")).values; // of nine nodes a step, of which node 0 is pinned
+  const auto* last = codes.data() + codes.size() - 9 * 3;
   std::size_t moved = 0;
   for (std::size_t k = 0; k < 8 * 3; ++k) {
     const Vcd::Signal& v = vcd.at(neuron(k / 3, k % 3) + ".output.V");
-    EXPECT_EQ(v.last(), codes[3 + k]) << "neuron " << k;
+    EXPECT_EQ(v.last(), last[3 + k]) << "neuron " << k;
     moved += v.changes.size() > 1;
   }
   EXPECT_GT(moved, 8u);
@@ -48,50 +47,38 @@ TEST_P(WaveFile, ChangesNoBitOfTheRun) {
   const auto with = column("hash");
   const auto with_cycles = cycles();
   ASSERT_EQ(with.size(), 4u);
-  ASSERT_EQ(run(nine + " --steps 4 --no-check --out r"), 0);
+  good(line(nine + " --steps 4 --no-check --out r"));
   EXPECT_EQ(column("hash"), with);
   EXPECT_EQ(cycles(), with_cycles);
 }
 
 TEST_P(WaveFile, IsNotLeftBehindHalfWritten) {
-  const pid_t child = fork();
-  if (child == 0) {
-    if (chdir(folder.c_str()) != 0) _exit(1);
-    std::freopen("/dev/null", "w", stdout);
-    execl(HOPMESH_PROGRAM, "hopmesh", "run", "flag-400", "--no-check", "--out", "r", "--wave", "w.vcd",
-          "--level", GetParam().c_str(), nullptr);
-    _exit(1);
-  }
+  Program program(words_of(line("flag-400 --no-check --out r --wave w.vcd")), around);
   const auto growing = [&] {
-    for (const auto& entry : fs::directory_iterator(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(around.folder))
       if (entry.path().filename().string().rfind("w.vcd.", 0) == 0 && entry.file_size() > 100000) return true;
     return false;
   };
   for (int k = 0; k < 2000 && !growing(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_TRUE(growing());
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_FALSE(fs::exists(folder / "w.vcd"));
+  program.send(SIGKILL);
+  EXPECT_EQ(program.finish().signal, SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(at("w.vcd")));
 }
 
 TEST_P(WaveFile, RefusesBadWindowsAndCellsInOneLine) {
-  std::size_t refused = 0;
+  std::size_t count = 0;
   for (const char* bad :
        {"--wave-window 5:5", "--wave-window 7:3", "--wave-window 3", "--wave-window a:b",
         "--wave-window 1:2x", "--wave-window=-1:3", "--wave-window 1:2cc", "--wave-window 1c:2c",
         "--wave-window 1:1234567890123456789", "--wave-window '1 :2'", "--wave-cells 8", "--wave-cells 0-8",
         "--wave-cells ,", "--wave-cells 1,", "--wave-cells 1-2-3", "--wave-cells a", "--wave-cells=-1",
         "--wave-cells 0x1"}) {
-    EXPECT_EQ(run(nine + " --steps 1 --out r --wave w.vcd " + bad), 2) << bad;
-    const std::string told = content(folder / "err.txt");
-    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << bad << ": " << told;
-    EXPECT_EQ(content(folder / "out.txt"), "") << bad;
-    EXPECT_FALSE(fs::exists(folder / "w.vcd") || fs::exists(folder / "r")) << bad;
-    ++refused;
+    refused(line(nine + " --steps 1 --out r --wave w.vcd " + bad));
+    EXPECT_EQ(names_in(around.folder), std::vector<std::string>{}) << bad;
+    ++count;
   }
-  EXPECT_EQ(refused, 18u);
+  EXPECT_EQ(count, 18u);
 }
 
 INSTANTIATE_TEST_SUITE_P(At, WaveFile, testing::Values("systemc", "engine"),

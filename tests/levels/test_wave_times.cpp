@@ -89,9 +89,7 @@ TEST_P(WaveTimes, OutputsChangeOnEdgesOnly) {
 
 TEST_P(WaveTimes, RangesOfCellsAscendAndAreNoLongerThanMeshes) {
   for (const char* bad : {"3-1", "0-999999999"}) {
-    EXPECT_EQ(run(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad), 2) << bad;
-    const std::string told = content(folder / "err.txt");
-    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+    refused(line(nine + " --steps 1 --out r --wave w.vcd --wave-cells " + bad));
   }
 }
 

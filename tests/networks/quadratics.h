@@ -1,35 +1,34 @@
 // Small boxed quadratics for the tests of solvers, and slow, obvious answers to them.
 #pragma once
 
-#include "sim/networks/solvers/race.h"
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
+#include "sim/networks/solvers/solver_runs.h"
 #include "tests/reference/random_inputs.h"
 
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace hopmesh::solvers::testing {
-
-using reference::testing::Random;
+namespace hopmesh::tests {
 
 /// Its neurons stand for two components in turn.
-inline Problem problem_of(const Eigen::MatrixXd& W, const Vector& I, const Vector& start) {
-  const Weights sparse = W.sparseView();
+inline solvers::Problem problem_of(const Eigen::MatrixXd& W, const solvers::Vector& I,
+                                   const solvers::Vector& start) {
+  const solvers::Weights sparse = W.sparseView();
   std::vector<std::uint32_t> component;
   for (Eigen::Index i = 0; i < I.size(); ++i) component.push_back(i % 2);
-  return {sparse, I, start, reference::testing::coloured(sparse), component};
+  return {sparse, I, start, coloured(sparse), component};
 }
 
-/// One of random signs and curvatures, and a start anywhere.
-inline Problem random_problem(Random& random, Eigen::Index n) {
-  const auto network = reference::testing::random_network(random, n);
-  return reached(problem_of(network.W, network.I, reference::testing::random_point(random, n)));
+/// A problem of random signs and curvatures, and a start anywhere.
+inline solvers::Problem random_problem(Random& random, Eigen::Index n) {
+  const auto network = random_network(random, n);
+  return solvers::reached(problem_of(network.W, network.I, random_point(random, n)));
 }
 
 /// H = -W positive definite; I pulls `pull` times as hard as a curvature of 1 holds.
-inline Problem random_convex(Random& random, Eigen::Index n, double pull) {
+inline solvers::Problem random_convex(Random& random, Eigen::Index n, double pull) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  Vector I(n), start(n);
+  solvers::Vector I(n), start(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     A(i, i) = random.between(0.5, 1.5);
     for (Eigen::Index j = 0; j < n; ++j)
@@ -42,37 +41,38 @@ inline Problem random_convex(Random& random, Eigen::Index n, double pull) {
 }
 
 /// -1/2 V'WV - I'V.
-inline double energy(const Problem& p, const Vector& V) {
+inline double energy(const solvers::Problem& p, const solvers::Vector& V) {
   const Eigen::MatrixXd W = p.W;
   return -0.5 * V.dot(W * V) - p.I.dot(V);
 }
 
 /// The least energy on the box by trying every face of it: each output free, at 1, or at -1.
-inline Vector answer_by_faces(const Problem& p) {
+inline solvers::Vector answer_by_faces(const solvers::Problem& p) {
   const Eigen::MatrixXd W = p.W;
   const Eigen::Index n = p.I.size();
-  Vector best = p.start;
+  solvers::Vector best = p.start;
   for (int face = 0; face < std::pow(3, n); ++face) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
-    Vector b(n);
+    solvers::Vector b(n);
     int rest = face;
     for (Eigen::Index i = 0; i < n; ++i, rest /= 3) {
       b[i] = rest % 3 == 1 ? 1 : -1;
       if (rest % 3 == 0) A.row(i) = -W.row(i), b[i] = p.I[i];
     }
-    const Vector V = A.fullPivLu().solve(b);
+    const solvers::Vector V = A.fullPivLu().solve(b);
     if (V.allFinite() && V.cwiseAbs().maxCoeff() <= 1 + 1e-12 && energy(p, V) < energy(p, best)) best = V;
   }
   return best;
 }
 
 /// After so many sweeps.
-inline Vector after(const std::string& name, const Problem& problem, int sweeps, bool convex = true) {
-  const auto solver = make_solver(name, problem, convex);
+inline solvers::Vector after(const std::string& name, const solvers::Problem& problem, int sweeps,
+                             bool convex = true) {
+  const auto solver = solvers::make_solver(name, problem, convex);
   for (int k = 0; k < sweeps; ++k) solver->sweep();
   return solver->V();
 }
 
 inline const std::atomic<bool> never{false};
 
-} // namespace hopmesh::solvers::testing
+} // namespace hopmesh::tests

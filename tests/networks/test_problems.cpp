@@ -1,6 +1,6 @@
 // The problem set: what its networks are, what their least energies are, and that memories recall.
-#include "sim/networks/problems/making.h"
 #include "sim/networks/given_network.h"
+#include "sim/networks/problems/making.h"
 #include "tests/support/box_solver.h"
 
 #include <cmath>
@@ -149,8 +149,8 @@ class Memory : public ::testing::TestWithParam<const char*> {
         Eigen::Map<const reference::Vector>(pattern.data(), static_cast<Eigen::Index>(pattern.size()));
     for (double& v : start)
       if (dice.unit() < 0.1) v = -v;
-    const auto rest = reference::relax(network.network(), one_by_one(pattern.size()), start, 0, 200,
-                                       reference::Output::binary);
+    const auto rest =
+        reference::relax(network.network(), one_by_one(pattern.size()), start, 0, 200, spec::Output::binary);
     EXPECT_TRUE(rest.converged);
     return overlap(pattern, rest.V);
   }

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <set>
 
-namespace hopmesh::solvers::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace solvers;
 
 using ::testing::HasSubstr;
 
@@ -234,4 +236,4 @@ TEST(Quadratic, ToRestEndsWhereNothingGoesLower) {
 }
 
 } // namespace
-} // namespace hopmesh::solvers::testing
+} // namespace hopmesh::tests

@@ -1,22 +1,24 @@
 // The solvers on networks of a mesh at a step of 0.05 s: who is faster than whom, and by which power of dt
 // omega.
 #include "tests/networks/quadratics.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::solvers::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace solvers;
 
 // A sheet of 12 x 12 nodes that billows, its step of backward Euler expanded about no change; the scale is
 // such that the largest output of the answer without a box would be `peak`.
 Problem sheet_network(double k, double peak) {
-  const scene::Mesh mesh = rivals::testing::sheet(12, k / 2);
+  const scene::Mesh mesh = sheet(12, k / 2);
   reference::Motion motion{};
-  motion.rule = reference::Rule::backward_euler;
+  motion.formulation = &reference::backward_euler;
   motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
   motion.force = {9.81, 3, 0};
-  reference::State state = reference::initial_state(mesh, motion.rule);
+  reference::State state = reference::initial_state(mesh, *motion.formulation);
   for (Eigen::Index n = 0; n < state.velocity.size(); ++n)
     if (!mesh.pinned[n / 3])
       state.velocity[n] = 0.3 * std::sin(3 * mesh.position[n / 3][0] + static_cast<double>(n % 3));
@@ -110,7 +112,7 @@ class FlagUnderWay : public ::testing::Test {
     const rivals::Physics physics(mesh, {{3, 1, -9.81}, 0.2});
     const auto path = rivals::make_method("velocity_verlet", physics, 1e-4);
     for (int k = 0; k < 5000; ++k) path->advance();
-    motion.rule = reference::Rule::backward_euler;
+    motion.formulation = &reference::backward_euler;
     motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
     motion.force = {3, 1, -9.81};
     state.position = path->positions(), state.velocity = path->velocities();
@@ -130,9 +132,9 @@ class FlagUnderWay : public ::testing::Test {
     return sweeps;
   }
 
-  const scene::Mesh mesh = rivals::testing::sheet(20, 50);
+  const scene::Mesh mesh = sheet(20, 50);
   reference::Motion motion{};
-  reference::State state = reference::initial_state(mesh, reference::Rule::backward_euler);
+  reference::State state = reference::initial_state(mesh, reference::backward_euler);
   reference::Increment about{};
 };
 
@@ -155,4 +157,4 @@ TEST_F(FlagUnderWay, ThePredictionIsABetterStart) {
 }
 
 } // namespace
-} // namespace hopmesh::solvers::testing
+} // namespace hopmesh::tests

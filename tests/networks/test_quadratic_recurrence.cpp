@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::solvers::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace solvers;
 
 Problem two_neurons() {
   return problem_of((Eigen::Matrix2d() << -4, -1, -1, -2).finished(), Vector::Ones(2), Vector::Zero(2));
@@ -127,4 +129,4 @@ TEST(QuadraticRecurrence, OneSolve) {
 }
 
 } // namespace
-} // namespace hopmesh::solvers::testing
+} // namespace hopmesh::tests

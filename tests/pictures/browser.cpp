@@ -1,17 +1,18 @@
 // WebGL is drawn by SwiftShader, in software: the same on a machine without a graphics card.
 #include "tests/pictures/browser.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
 
-#include <sstream>
+#include <gtest/gtest.h>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 
 bool browser_present() {
-  return std::system("command -v chromium > /dev/null 2>&1") == 0;
+  return run_shell("command -v chromium").exit_code == 0;
 }
 
 BrowserVisit visit(const std::filesystem::path& page, const std::string& more_flags, int budget_ms) {
-  const tests::Folder profile;
+  const Folder profile;
   const std::string command =
       "timeout 120 chromium --headless --no-sandbox --disable-gpu --use-angle=swiftshader"
       " --enable-unsafe-swiftshader --disable-quic --no-first-run --disable-background-networking"
@@ -20,13 +21,12 @@ BrowserVisit visit(const std::filesystem::path& page, const std::string& more_fl
       std::to_string(budget_ms) + " " + more_flags + " --user-data-dir='" + (profile / "profile").string() +
       "' 'file://" + page.string() + "' > '" + (profile / "dom").string() + "' 2> '" +
       (profile / "log").string() + "'";
-  EXPECT_EQ(std::system(command.c_str()), 0) << tests::content_of(profile / "log");
-  BrowserVisit result{tests::content_of(profile / "dom"), {}};
-  std::istringstream log(tests::content_of(profile / "log"));
-  for (std::string line; std::getline(log, line);)
+  EXPECT_EQ(run_shell(command).exit_code, 0) << content_of(profile / "log");
+  BrowserVisit result{content_of(profile / "dom"), {}};
+  for (const std::string& line : lines_of(content_of(profile / "log")))
     if (line.find("CONSOLE") != std::string::npos && line.find("GL Driver Message") == std::string::npos)
       result.console.push_back(line);
   return result;
 }
 
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

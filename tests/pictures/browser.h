@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 
 struct BrowserVisit {
   std::string dom; ///< the page after its scripts have run
@@ -18,4 +18,4 @@ bool browser_present();
 BrowserVisit visit(const std::filesystem::path& page, const std::string& more_flags = "",
                    int budget_ms = 4000);
 
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

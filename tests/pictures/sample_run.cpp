@@ -3,8 +3,10 @@
 
 #include <cmath>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 void add_mesh(RunView& view, std::size_t side) {
   const auto node = [side](std::size_t r, std::size_t c) { return static_cast<std::uint32_t>(r * side + c); };
@@ -55,8 +57,8 @@ void add_series(RunView& view, std::size_t steps) {
     strain.push_back(0.02 + 0.05 * calm + 0.008 * std::sin(3.2 * t));
     error.push_back(1e-6 * std::pow(10.0, 4.2 * (1 - calm)) * (1.2 + std::sin(2.1 * t)));
   }
-  view.series = {{"sweeps", "", sweeps},    {"cycles", "", cycles},     {"energy", "J", energy},
-                 {"kinetic", "J", kinetic}, {"max_strain", "", strain}, {"error_v", "m/s²", error}};
+  view.series = {{"sweeps", "", sweeps},    {"cycles", "", cycles},         {"energy", "J", energy},
+                 {"kinetic", "J", kinetic}, {"largest strain", "", strain}, {"error", "m/s²", error}};
 }
 
 } // namespace
@@ -86,4 +88,4 @@ RunView sample_run(std::size_t side, std::size_t frames, std::size_t steps) {
   return view;
 }
 
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

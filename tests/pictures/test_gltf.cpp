@@ -3,7 +3,7 @@
 #include "sim/files/output_file.h"
 #include "sim/pictures/gltf.h"
 #include "tests/pictures/sample_run.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,17 @@
 #include <limits>
 #include <tiny_gltf.h>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
 
+using namespace pictures;
+
 tinygltf::Model loaded(const RunView& view) {
-  const tests::Folder folder;
+  const Folder folder;
   write_glb(view, folder / "mesh.glb");
   tinygltf::Model model;
   std::string errors, warnings;
-  const std::string file = tests::content_of(folder / "mesh.glb");
+  const std::string file = content_of(folder / "mesh.glb");
   EXPECT_EQ(file.size() % 4, 0u);
   EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model, &errors, &warnings,
                                                         reinterpret_cast<const unsigned char*>(file.data()),
@@ -187,7 +189,7 @@ TEST(Gltf, WithoutCrestThereIsAPlainColour) {
 }
 
 TEST(Gltf, MotionWithoutOneGoodFrameIsRefused) {
-  const tests::Folder folder;
+  const Folder folder;
   RunView view = sample_run(3, 1);
   view.frames[0][0] = std::numeric_limits<float>::infinity();
   EXPECT_THROW(write_glb(view, folder / "mesh.glb"), files::WriteError);
@@ -206,11 +208,11 @@ TEST(Gltf, TitleMayHoldAnyBytes) {
 }
 
 TEST(Gltf, SameRunSameBytes) {
-  const tests::Folder folder;
+  const Folder folder;
   write_glb(sample_run(6, 10), folder / "a.glb");
   write_glb(sample_run(6, 10), folder / "b.glb");
-  EXPECT_EQ(tests::content_of(folder / "a.glb"), tests::content_of(folder / "b.glb"));
+  EXPECT_EQ(content_of(folder / "a.glb"), content_of(folder / "b.glb"));
 }
 
 } // namespace
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

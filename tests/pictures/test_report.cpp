@@ -4,13 +4,15 @@
 #include "sim/pictures/report.h"
 #include "tests/pictures/browser.h"
 #include "tests/pictures/sample_run.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <gmock/gmock.h>
 #include <limits>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -27,9 +29,9 @@ RunView small_run() {
 /// element). On a busy machine drawing in software may outlast the page's time: then it gets more.
 BrowserVisit opened(const RunView& view, const std::string& flags = "", const std::string& script = "",
                     const std::filesystem::path& three = debian_three_folder) {
-  const tests::Folder folder;
+  const Folder folder;
   write_report(view, folder / "report.html", three);
-  std::string page = tests::content_of(folder / "report.html");
+  std::string page = content_of(folder / "report.html");
   const std::string watch =
       "<script>addEventListener('load', () => { const wait = setInterval(() => { const html = "
       "document.documentElement; if (html.dataset.ready !== 'true') return; "
@@ -169,9 +171,9 @@ TEST(Report, HostileNamesStayText) {
   view.title = view.subtitle = view.outcome = view.manifest = evil;
   view.series[0].name = view.series[0].unit = evil;
   view.tables[0] = {evil, {{evil, evil}}};
-  const tests::Folder folder;
+  const Folder folder;
   write_report(view, folder / "report.html");
-  EXPECT_THAT(tests::content_of(folder / "report.html"), Not(HasSubstr("<script>document")));
+  EXPECT_THAT(content_of(folder / "report.html"), Not(HasSubstr("<script>document")));
   NEED_BROWSER;
   const auto page = opened(view);
   EXPECT_THAT(page.console, IsEmpty());
@@ -181,27 +183,27 @@ TEST(Report, HostileNamesStayText) {
 }
 
 TEST(Report, AsksNobodyForAnything) {
-  const tests::Folder folder;
+  const Folder folder;
   write_report(small_run(), folder / "report.html");
-  const std::string page = tests::content_of(folder / "report.html");
+  const std::string page = content_of(folder / "report.html");
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   for (const char* outside : {"src=\"http", "href=\"http", "url(http", "@import"})
     EXPECT_THAT(page, Not(HasSubstr(outside)));
 }
 
 TEST(Report, SameRunSameBytes) {
-  const tests::Folder folder;
+  const Folder folder;
   write_report(small_run(), folder / "a.html");
   write_report(small_run(), folder / "b.html");
-  EXPECT_EQ(tests::content_of(folder / "a.html"), tests::content_of(folder / "b.html"));
+  EXPECT_EQ(content_of(folder / "a.html"), content_of(folder / "b.html"));
 }
 
 TEST(Report, BrowserTestsWouldSeeAnError) {
   NEED_BROWSER;
-  const tests::Folder folder;
+  const Folder folder;
   files::write_file(folder / "bad.html", "<!DOCTYPE html><script>undefinedFunction();</script>");
   EXPECT_THAT(visit(folder / "bad.html").console, Not(IsEmpty()));
 }
 
 } // namespace
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

@@ -5,13 +5,15 @@
 #include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_map.h"
 #include "tests/pictures/browser.h"
-#include "tests/support/folder.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace hopmesh::pictures {
+namespace hopmesh::tests {
 namespace {
+
+using namespace pictures;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -123,7 +125,7 @@ TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
     document.body.click();
     marks[0].dispatchEvent(new MouseEvent('mouseenter'));
     html.dataset.free = told();</script></body>)");
-  const tests::Folder folder;
+  const Folder folder;
   files::write_file(folder / "chart.html", page);
   const BrowserVisit seen = visit(folder / "chart.html");
   EXPECT_THAT(seen.console, ::testing::IsEmpty());
@@ -133,4 +135,4 @@ TEST(ChartPage, PointingAtAMarkTellsTheCommandThatRepeatsIt) {
 }
 
 } // namespace
-} // namespace hopmesh::pictures
+} // namespace hopmesh::tests

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 
 /// A flag hanging by its left column: rows x columns, unit pitch, structural springs and both diagonals.
 inline scene::Mesh flag(std::uint32_t rows, std::uint32_t columns) {
@@ -27,8 +27,8 @@ inline scene::Mesh flag(std::uint32_t rows, std::uint32_t columns) {
 }
 
 /// The settings of the paper's flags.
-inline Motion flying() {
-  Motion motion{};
+inline reference::Motion flying() {
+  reference::Motion motion{};
   motion.time_step = 0.05;
   motion.friction = 0.99;
   motion.gamma = 4000;
@@ -40,4 +40,4 @@ inline Motion flying() {
   return motion;
 }
 
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

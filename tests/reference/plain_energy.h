@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 
 #ifdef __SIZEOF_FLOAT128__
 using Wide = __float128; // 113 bits
@@ -24,13 +24,13 @@ inline Wide wide_sqrt(Wide x) {
   return y;
 }
 
-inline WideVector widened(const Vector& v) {
+inline WideVector widened(const reference::Vector& v) {
   return {v.begin(), v.end()};
 }
 
 /// Where node `n` is in space once its outputs have acted for a step: C + h V.
-inline std::array<Wide, 3> place(const scene::Mesh& mesh, Wide h, const Vector& C, const WideVector& V,
-                                 std::size_t n) {
+inline std::array<Wide, 3> place(const scene::Mesh& mesh, Wide h, const reference::Vector& C,
+                                 const WideVector& V, std::size_t n) {
   std::array<Wide, 3> at = {C[3 * n], C[3 * n + 1], C[3 * n + 2]};
   if (mesh.planar) {
     at[0] += h * V[2 * n];
@@ -48,7 +48,7 @@ inline Wide plain_spring(const scene::Spring& spring, const std::array<Wide, 3>&
   return spring.weight * stretch * stretch;
 }
 
-inline Wide plain_beta(const scene::Mesh& mesh, const Motion& motion, std::size_t node) {
+inline Wide plain_beta(const scene::Mesh& mesh, const reference::Motion& motion, std::size_t node) {
   Wide sum = 0, count = 0;
   for (const auto& spring : mesh.springs)
     if (spring.node[0] == node || spring.node[1] == node) {
@@ -60,7 +60,7 @@ inline Wide plain_beta(const scene::Mesh& mesh, const Motion& motion, std::size_
 }
 
 /// E(V) of docs/method/theory.md, section 1.
-inline Wide plain_energy(const scene::Mesh& mesh, const Motion& motion, const Vector& C,
+inline Wide plain_energy(const scene::Mesh& mesh, const reference::Motion& motion, const reference::Vector& C,
                          const WideVector& V) {
   const Wide h = Wide(motion.time_step) * motion.time_step / 2;
   Wide sum = 0;
@@ -107,4 +107,4 @@ inline double curvature(const std::function<Wide(const WideVector&)>& f, const W
   return static_cast<double>((moved(1, 1) - moved(1, -1) - moved(-1, 1) + moved(-1, -1)) / (4 * d * d));
 }
 
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

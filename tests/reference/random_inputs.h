@@ -8,7 +8,7 @@
 #include <iostream>
 #include <random>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 
 /// A stream of random numbers that prints its seed; HOPMESH_TEST_SEED replaces the seed a test was written
 /// with.
@@ -47,9 +47,9 @@ inline scene::Mesh random_mesh(Random& random, std::uint32_t nodes, bool planar,
   return mesh;
 }
 
-inline Motion random_motion(Random& random) {
+inline reference::Motion random_motion(Random& random) {
   const double steps[] = {0.01, 0.05, 0.2, 1.0};
-  Motion motion{};
+  reference::Motion motion{};
   motion.time_step = steps[random.below(4)];
   motion.friction = 0.99;
   motion.gamma = random.between(0.1, 10);
@@ -69,9 +69,9 @@ inline Eigen::Index components(const scene::Mesh& mesh) {
 }
 
 /// Outputs anywhere in the box but at least `shortest` long; 0 where pinned.
-inline Vector random_outputs(Random& random, const scene::Mesh& mesh, double shortest = 0.2) {
+inline reference::Vector random_outputs(Random& random, const scene::Mesh& mesh, double shortest = 0.2) {
   const Eigen::Index k = components(mesh);
-  Vector V = Vector::Zero(k * static_cast<Eigen::Index>(mesh.nodes()));
+  reference::Vector V = reference::Vector::Zero(k * static_cast<Eigen::Index>(mesh.nodes()));
   for (std::size_t node = 0; node < mesh.nodes(); ++node)
     while (!mesh.pinned[node] && V.segment(k * node, k).norm() < shortest)
       for (Eigen::Index p = 0; p < k; ++p) V[k * node + p] = random.between(-1, 1);
@@ -80,8 +80,8 @@ inline Vector random_outputs(Random& random, const scene::Mesh& mesh, double sho
 
 /// A moving mesh in the middle of a run: everything but the pinned nodes has velocity, acceleration and a
 /// rest state.
-inline State random_state(Random& random, const scene::Mesh& mesh, double speed = 0.2) {
-  State state = initial_state(mesh);
+inline reference::State random_state(Random& random, const scene::Mesh& mesh, double speed = 0.2) {
+  reference::State state = reference::initial_state(mesh);
   for (Eigen::Index k = 0; k < state.velocity.size(); ++k) {
     if (mesh.pinned[k / 3] || (mesh.planar && k % 3 == 1)) continue;
     state.velocity[k] = random.between(-speed, speed);
@@ -93,9 +93,9 @@ inline State random_state(Random& random, const scene::Mesh& mesh, double speed 
 }
 
 /// A symmetric network of n neurons, sparse, with a diagonal of any sign and some neurons without any input.
-inline Network random_network(Random& random, Eigen::Index n) {
+inline reference::Network random_network(Random& random, Eigen::Index n) {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(n, n);
-  Vector I = Vector::Zero(n);
+  reference::Vector I = reference::Vector::Zero(n);
   const double density = random.between(0, 1), diagonal = random.between(0, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     if (random.chance(0.05)) continue;
@@ -107,30 +107,30 @@ inline Network random_network(Random& random, Eigen::Index n) {
   return {W.sparseView(), I};
 }
 
-inline Network network_of(const Eigen::MatrixXd& W, const Vector& I) {
+inline reference::Network network_of(const Eigen::MatrixXd& W, const reference::Vector& I) {
   return {W.sparseView(), I};
 }
 
 /// A start in the box, often at its bounds: there the rule changes sides.
-inline Vector random_point(Random& random, Eigen::Index n) {
-  Vector V(n);
+inline reference::Vector random_point(Random& random, Eigen::Index n) {
+  reference::Vector V(n);
   for (double& v : V) v = random.chance(0.3) ? (random.chance(0.5) ? 1 : -1) : random.between(-1, 1);
   return V;
 }
 
-inline Order one_by_one(Eigen::Index neurons) {
-  Order order;
+inline reference::Order one_by_one(Eigen::Index neurons) {
+  reference::Order order;
   for (Eigen::Index n = 0; n < neurons; ++n) order.push_back({static_cast<std::uint32_t>(n)});
   return order;
 }
 
 /// Greedy colouring: neurons of a phase share no weight.
-inline Order coloured(const Matrix& W) {
-  Order order;
+inline reference::Order coloured(const reference::Matrix& W) {
+  reference::Order order;
   std::vector<std::size_t> colour;
   for (Eigen::Index n = 0; n < W.rows(); ++n) {
     std::vector<bool> taken(order.size() + 1, false);
-    for (Matrix::InnerIterator w(W, n); w; ++w)
+    for (reference::Matrix::InnerIterator w(W, n); w; ++w)
       if (w.col() < n) taken[colour[w.col()]] = true;
     const std::size_t free = std::find(taken.begin(), taken.end(), false) - taken.begin();
     if (free == order.size()) order.emplace_back();
@@ -140,4 +140,4 @@ inline Order coloured(const Matrix& W) {
   return order;
 }
 
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

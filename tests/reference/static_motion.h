@@ -3,16 +3,16 @@
 
 #include "sim/reference/reference.h"
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 
 /// Relaxed to the end, one expansion a step.
-inline Motion static_motion() {
-  Motion motion{};
-  motion.rule = Rule::statics;
+inline reference::Motion static_motion() {
+  reference::Motion motion{};
+  motion.formulation = &reference::statics;
   motion.mass = motion.time_step = motion.friction = 1;
   motion.force.setZero();
   motion.threshold = 1e-16, motion.max_sweeps = 20000, motion.expansions = 1;
   return motion;
 }
 
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

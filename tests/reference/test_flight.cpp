@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 Eigen::Vector3d at(const Vector& all, std::size_t node) {
   return all.segment<3>(3 * node);
@@ -179,4 +181,4 @@ TEST(ReferenceFlight, AFlagFliesWithThePapersSettings) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

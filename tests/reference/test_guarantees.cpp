@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -96,7 +98,7 @@ TEST(ReferenceGuarantees, TwoNeuronsAllAtOnceFlipForEver) {
     EXPECT_EQ(rest.V, sweeps % 2 ? down : up);
     EXPECT_FALSE(rest.converged);
   }
-  // One at a time the same network rests, and lower.
+  // Neuron by neuron the same network rests, and lower.
   const Relaxation rest = relax(net, {{0}, {1}}, up, 0, 50);
   EXPECT_TRUE(rest.converged);
   EXPECT_EQ(rest.V, Eigen::Vector2d(-1, 1));
@@ -239,4 +241,4 @@ TEST(ReferenceGuarantees, AnyOrderBringsANeuralMeshToTheSolutionOfItsLinearSyste
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

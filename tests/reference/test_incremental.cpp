@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 struct Case {
   scene::Mesh mesh;
@@ -15,9 +17,9 @@ struct Case {
   State state;
 };
 
-Motion incremental_motion(Random& random, Rule rule) {
+Motion incremental_motion(Random& random, const Formulation& formulation) {
   Motion motion = random_motion(random);
-  motion.rule = rule;
+  motion.formulation = &formulation;
   motion.mass = random.between(0.1, 2);
   motion.drag = random.chance(0.5) ? 0 : random.between(0.1, 5);
   return motion;
@@ -28,7 +30,7 @@ Case random_case(Random& random, int k) {
   const bool planar = k % 2 == 1;
   const double rest_factor[] = {1, 0, 3};
   c.mesh = random_mesh(random, 5 + random.below(4), planar, rest_factor[k % 3]);
-  c.motion = incremental_motion(random, k % 4 < 2 ? Rule::backward_euler : Rule::bdf2);
+  c.motion = incremental_motion(random, k % 4 < 2 ? backward_euler : bdf2);
   c.state = random_state(random, c.mesh);
   c.state.previous_position = c.state.position - c.motion.time_step * c.state.velocity;
   c.state.previous_velocity = 0.9 * c.state.velocity;
@@ -166,15 +168,15 @@ TEST(ReferenceIncremental, AStepRelaxedToTheEndIsTheExactImplicitStep) {
 
 /// A weight on a spring that hangs straight down and stays on its line, where the spring is linear.
 struct Hanging {
-  Hanging(Rule rule, double time_step) {
+  Hanging(const Formulation& formulation, double time_step) {
     mesh.position = {{0, 0, 0}, {0, 0, -1}};
     mesh.pinned = {true, false};
     mesh.springs = {{{0, 1}, 5, 1}}; // k = 2 alpha = 10
-    motion.rule = rule, motion.mass = 0.5, motion.drag = 0.3, motion.time_step = time_step;
+    motion.formulation = &formulation, motion.mass = 0.5, motion.drag = 0.3, motion.time_step = time_step;
     motion.friction = 1, motion.force = {0, 0, -2};
     motion.threshold = 1e-16, motion.max_sweeps = 4000, motion.expansions = 2;
     mesh.mass = motion.mass;
-    state = initial_state(mesh, rule);
+    state = initial_state(mesh, formulation);
   }
   void advance_once() { advance(mesh, motion, one_by_one(6), state); }
   double x() const { return state.position[5]; }
@@ -188,7 +190,7 @@ struct Hanging {
 // a = -(k/m) (z + 1) - c v - 2 with k/m = 20, c = 0.3.
 TEST(ReferenceIncremental, BackwardEulerOfAWeightOnASpringByHand) {
   const double dt = 0.05;
-  Hanging hanging(Rule::backward_euler, dt);
+  Hanging hanging(backward_euler, dt);
   double z = -1, v = 0;
   for (int k = 0; k < 100; ++k) {
     hanging.advance_once();
@@ -202,7 +204,7 @@ TEST(ReferenceIncremental, BackwardEulerOfAWeightOnASpringByHand) {
 
 TEST(ReferenceIncremental, Bdf2OfAWeightOnASpringByHand) {
   const double dt = 0.05;
-  Hanging hanging(Rule::bdf2, dt);
+  Hanging hanging(bdf2, dt);
   double z[2] = {-1, -1}, v[2] = {0, 0}; // now, before
   for (int k = 0; k < 100; ++k) {
     hanging.advance_once();
@@ -224,11 +226,11 @@ double closed_form(double t) {
 }
 
 TEST(ReferenceIncremental, HalvingTheTimeStepShowsTheOrder) {
-  for (const auto& [rule, order] : {std::pair(Rule::backward_euler, 1.0), std::pair(Rule::bdf2, 2.0)}) {
+  for (const auto& [formulation, order] : {std::pair(&backward_euler, 1.0), std::pair(&bdf2, 2.0)}) {
     double error[2];
     for (int fine = 0; fine < 2; ++fine) {
       const int steps = fine ? 400 : 200;
-      Hanging hanging(rule, 1.0 / steps);
+      Hanging hanging(*formulation, 1.0 / steps);
       for (int k = 0; k < steps; ++k) hanging.advance_once();
       error[fine] = std::abs(hanging.x() - closed_form(1));
     }
@@ -237,7 +239,7 @@ TEST(ReferenceIncremental, HalvingTheTimeStepShowsTheOrder) {
 }
 
 TEST(ReferenceIncremental, RestWithoutForceStays) {
-  Hanging hanging(Rule::bdf2, 0.05);
+  Hanging hanging(bdf2, 0.05);
   hanging.motion.force.setZero();
   for (int k = 0; k < 5; ++k) hanging.advance_once();
   EXPECT_EQ(hanging.x(), -1);
@@ -245,4 +247,4 @@ TEST(ReferenceIncremental, RestWithoutForceStays) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

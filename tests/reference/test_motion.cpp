@@ -1,4 +1,4 @@
-// One step of the probe formulation, formula by formula: docs/method/theory.md, section 4.
+// A step of the probe formulation, formula by formula: docs/method/theory.md, section 4.
 #include "sim/reference/reference.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/plain_energy.h"
@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 Eigen::Vector3d at(const Vector& all, std::size_t node) {
   return all.segment<3>(3 * node);
@@ -217,4 +219,4 @@ TEST(ReferenceMotion, ANodeWithoutDirectionGetsNoKick) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

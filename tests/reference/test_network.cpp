@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 /// A step about to be expanded.
 struct Case {
@@ -58,9 +60,9 @@ Eigen::Index node_of(const Case& c, Eigen::Index row) {
 }
 
 // Error model: what finite differences lose (plain_energy.h), and what the network loses in some ten rounded
-// operations an entry on differences of coordinates that may have lost two digits. Both stay below 1e-11 of
-// the terms that an entry is summed from, far below the 1e-6 that would already tell a right formula from a
-// wrong one.
+// operations an entry on differences of coordinates that may have lost two digits. Either stays below 1e-11
+// of the terms that an entry is summed from, far below the 1e-6 that would already tell a right formula from
+// a wrong one.
 constexpr double kept = 1e-11;
 
 TEST(ReferenceEnergy, IsTheFormulaOfPaperEquation15) {
@@ -285,4 +287,4 @@ TEST(ReferenceNetwork, TheModelOfANodeWithoutDirectionTouchesTheEnergyAndLiesNow
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

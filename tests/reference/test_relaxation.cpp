@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 TEST(ReferenceRelaxation, OneNeuronFollowsTheRuleByHand) {
   // W = -1/2, I = 1/2, N = 1. V = 0: u = 1/2, R = 1 -> 1/2; u = 1/4, R = 1/2 -> 5/8; u = 3/16, R = 3/8 ->
@@ -53,7 +55,7 @@ TEST(ReferenceRelaxation, BinaryOutputsAreSignsAndStayWhereTheSumIsZero) {
   W(0, 1) = W(1, 0) = 1;
   const Network net = network_of(W, Eigen::Vector3d(-1, 0, 0));
   const auto rest = [&](double V0, double V1, double V2) {
-    return relax(net, one_by_one(3), Eigen::Vector3d(V0, V1, V2), 0, 10, Output::binary).V;
+    return relax(net, one_by_one(3), Eigen::Vector3d(V0, V1, V2), 0, 10, spec::Output::binary).V;
   };
   EXPECT_EQ(rest(0.5, 0.25, -0.375), Eigen::Vector3d(-1, -1, -0.375));
   EXPECT_EQ(rest(1, 1, 0), Eigen::Vector3d(1, 1, 0));
@@ -102,4 +104,4 @@ TEST(ReferenceRelaxation, KktViolationByHand) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

@@ -6,8 +6,10 @@
 #include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 Eigen::Index nodes_of(const scene::Mesh& mesh) {
   return static_cast<Eigen::Index>(mesh.nodes());
@@ -56,7 +58,7 @@ TEST(ReferenceStatic, OneStepOfAMeshWithoutRestLengthsSolvesItsLinearSystem) {
     motion.node_force.resize(3 * nodes_of(mesh));
     for (double& a : motion.node_force) a = random.between(-1, 1);
     motion.mass = random.between(0.1, 2);
-    State state = initial_state(mesh, motion.rule);
+    State state = initial_state(mesh, *motion.formulation);
     const Vector wanted = balanced(mesh, state.position, increment(mesh, motion, state).load);
     advance(mesh, motion, one_by_one(state.V.size()), state);
     EXPECT_LT((state.position - wanted).cwiseAbs().maxCoeff(), 1e-10) << "case " << k;
@@ -91,7 +93,7 @@ TEST(ReferenceStatic, AChainComesToHangAsItsClosedFormSays) {
     Motion motion = static_motion();
     motion.mass = mesh.mass;
     motion.force = {0, 0, -g};
-    State state = initial_state(mesh, motion.rule);
+    State state = initial_state(mesh, *motion.formulation);
     double before = HUGE_VAL;
     for (int step = 0; step < 60; ++step) {
       advance(mesh, motion, one_by_one(state.V.size()), state);
@@ -109,7 +111,7 @@ TEST(ReferenceStatic, AStepAgainstNothingGoesNoFurtherThanTheLongestSpring) {
   scene::Mesh mesh = chain(6);
   Motion motion = static_motion();
   motion.force = {5, 0, 0};
-  State state = initial_state(mesh, motion.rule);
+  State state = initial_state(mesh, *motion.formulation);
   const Vector start = state.position;
   advance(mesh, motion, one_by_one(state.V.size()), state);
   EXPECT_GT((state.position - start).cwiseAbs().maxCoeff(), 0.01);
@@ -140,4 +142,4 @@ TEST(ReferenceStatic, TheNetworkHasTheSlopeOfThePotential) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

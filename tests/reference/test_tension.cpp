@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::reference::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace reference;
 
 /// A tree in the plane y = 0: its terminals first.
 scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t terminals,
@@ -24,7 +26,7 @@ scene::Mesh tree(const std::vector<std::array<double, 2>>& nodes, std::size_t te
 }
 
 State at_rest(const scene::Mesh& mesh) {
-  State state = initial_state(mesh, Rule::statics);
+  State state = initial_state(mesh, statics);
   for (int step = 0; step < 60; ++step) advance(mesh, static_motion(), one_by_one(state.V.size()), state);
   return state;
 }
@@ -102,4 +104,4 @@ TEST(ReferenceTension, TheTreesOfASquareAndOfALadderAreTheShortest) {
 }
 
 } // namespace
-} // namespace hopmesh::reference::testing
+} // namespace hopmesh::tests

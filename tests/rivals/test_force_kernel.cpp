@@ -1,13 +1,15 @@
 // The kernels of a force pass against each other, bit for bit, and against a loop that knows no rows.
 #include "sim/rivals/force_pass.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace rivals;
 
 /// Springs one by one, straight from the definition.
 Vector plain_forces(const scene::Mesh& mesh, const Vector& x) {
@@ -93,4 +95,4 @@ TEST(ForceKernel, aSpringOfNoLengthPullsNowhere) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::tests

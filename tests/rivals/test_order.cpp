@@ -1,12 +1,14 @@
 // Halving the time step on the banner divides the error by 2 to the order.
 #include "sim/rivals/truth.h"
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace rivals;
 
 constexpr double until = 0.08; // s
 
@@ -40,4 +42,4 @@ INSTANTIATE_TEST_SUITE_P(Of, RivalsOrder,
                          [](const auto& made) { return std::get<0>(made.param); });
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::tests

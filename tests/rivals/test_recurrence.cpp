@@ -1,11 +1,13 @@
 // Each integrator against its own recurrence on one spring, done by hand, to round-off.
-#include "tests/rivals/meshes.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace rivals;
 
 constexpr double dt = 0.05, c = 0.3;
 
@@ -84,7 +86,7 @@ TEST(RivalsRecurrence, Bdf2) {
   });
 }
 
-// One constraint is met exactly by one sweep: XPBD is backward Euler here, of each substep.
+// A single constraint is met exactly by one sweep: XPBD is backward Euler here, of each substep.
 TEST(RivalsRecurrence, Xpbd) {
   Options options;
   options.substeps = 4;
@@ -131,4 +133,4 @@ TEST(RivalsRecurrence, GoingOnFromAStateIsGoingOn) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::tests

@@ -1,13 +1,15 @@
 // Two methods of SUNDIALS that share only the equation of motion, and a closed form.
-#include "sim/rivals/truth.h"
 #include "sim/input/input_error.h"
-#include "tests/rivals/meshes.h"
+#include "sim/rivals/truth.h"
+#include "tests/rivals/rival_meshes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::rivals::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace rivals;
 
 TEST(RivalsTruth, OfAWeightOnASpringIsTheClosedForm) {
   const scene::Mesh mesh = hanging_weight();
@@ -52,4 +54,4 @@ TEST(RivalsTruth, RefusesWhatItCannotTell) {
 }
 
 } // namespace
-} // namespace hopmesh::rivals::testing
+} // namespace hopmesh::tests

@@ -1,6 +1,7 @@
 // A checkpoint keeps every bit, and none of its bytes can change unseen.
 #include "sim/run/checkpoint.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 
 #include <cmath>
 #include <cstring>
@@ -40,17 +41,12 @@ class CheckpointFile : public ::testing::Test {
   }
   void put(const std::string& bytes) const {
     fs::remove(file); // some disks flush a file that is emptied and written again
-    std::ofstream(file, std::ios::binary) << bytes;
+    write_text(file, bytes);
   }
   /// What the reader says to these bytes; "" if it takes them.
   std::string refusal(const std::string& bytes) const {
     put(bytes);
-    try {
-      run::read_checkpoint(file);
-    } catch (const input::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { run::read_checkpoint(file); });
   }
   std::string whole() const {
     run::write_checkpoint(file, c);
@@ -58,7 +54,7 @@ class CheckpointFile : public ::testing::Test {
   }
 
   Checkpoint c;
-  const tests::Folder folder;
+  const Folder folder;
   const fs::path file = folder / "checkpoint";
 };
 

@@ -2,7 +2,8 @@
 #include "sim/levels/level.h"
 #include "sim/run/checkpointer.h"
 #include "sim/run/step_table.h"
-#include "tests/support/folder.h"
+#include "tests/support/complaint.h"
+#include "tests/support/files.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
 
@@ -59,20 +60,15 @@ class Resume : public ::testing::TestWithParam<const char*> {
     if (steps == 6) files.finish(result, *rig.motion);
   }
   std::string refusal() const {
-    try {
-      run::read_run(out);
-    } catch (const input::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { run::read_run(out); });
   }
 
-  const tests::Folder folder;
+  const Folder folder;
   const fs::path out = folder / "r";
   std::atomic<bool> stop{false};
 };
 
-// One of each kind; bdf2 looks two steps back. tests/cli/test_resume.cpp tries every level.
+// A level of each kind; bdf2 looks two steps back. tests/cli/motions/test_resume.cpp tries every level.
 INSTANTIATE_TEST_SUITE_P(Of, Resume, ::testing::Values("engine", "reference", "bdf2"),
                          [](const auto& made) { return made.param; });
 
@@ -124,7 +120,7 @@ TEST_P(Resume, AnyFolderGoesOnToTheSameFiles) {
 
 TEST_P(Resume, ACheckpointThatAKillCutShortGoesWithTheRun) {
   begin(4);
-  std::ofstream(out / "checkpoint.part") << "half";
+  write_text(out / "checkpoint.part", "half");
   go_on(6);
   for (const auto& entry : fs::directory_iterator(out)) EXPECT_NE(entry.path().extension(), ".part");
 }
@@ -134,7 +130,7 @@ TEST_P(Resume, RowsReadBackToTheSameBits) {
   const auto found = run::read_run(out);
   ASSERT_EQ(found.rows.size(), 4u);
   Rig rig(GetParam());
-  files::CsvWriter again(folder / "again.csv", run::step_columns());
+  files::CsvWriter again(folder / "again.csv", run::step_header());
   for (const levels::StepRow& row : found.rows) {
     const levels::StepRow wanted = rig.motion->advance();
     EXPECT_EQ(row.hash, wanted.hash);
@@ -169,10 +165,10 @@ TEST_P(Resume, AStreamThatChangedIsNamedWithItsLineAndNothingIsTouched) {
     const std::string good = content_of(out / name);
     std::string bad = good;
     bad[good.size() - 9] ^= 1;
-    std::ofstream(out / name, std::ios::binary) << bad;
+    write_text(out / name, bad);
     EXPECT_THAT(refusal(), ::testing::ContainsRegex("/checkpoint:[0-9]+: " + std::string(name).substr(0, 9)));
     EXPECT_EQ(content_of(out / name), bad);
-    std::ofstream(out / name, std::ios::binary) << good;
+    write_text(out / name, good);
   }
   EXPECT_EQ(refusal(), "");
 }
@@ -221,24 +217,19 @@ TEST(ResumeArray, AStoppedStepLeavesTheStateOfTheOneBefore) {
 }
 
 TEST(ReadRows, SayWhichLineIsNone) {
-  const tests::Folder folder;
+  const Folder folder;
   std::string header;
-  for (const std::string& name : run::step_columns()) header += (header.empty() ? "" : ",") + name;
+  for (const std::string& name : run::step_header()) header += (header.empty() ? "" : ",") + name;
   const std::string row = "0,0.05,1,2,3,4,5,6,1,7,8,9,,,,,00000000000000ff\n";
   const auto read = [&](const std::string& text) {
-    std::ofstream(folder / "t.csv", std::ios::binary) << text;
+    write_text(folder / "t.csv", text);
     return run::read_rows(folder / "t.csv", text.size());
   };
   EXPECT_EQ(read(header + '\n' + row).at(0).hash, 255u);
   for (const char* bad :
        {"0,0.05,1\n", "x,0.05,1,2,3,4,5,6,1,7,8,9,,,,,ff\n", "0,0,1,2,3,4,5,6,2,7,8,9,,,,,ff\n",
         "0,0,1,2,3,4,5,6,1,7,8,9,,1,,,ff\n", "0,0,1,2,3,4,5,6,1,7,8,9,,,,,ff,1\n"}) {
-    try {
-      read(header + '\n' + row + bad);
-      ADD_FAILURE() << bad;
-    } catch (const input::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("t.csv:3: found "));
-    }
+    EXPECT_THAT(complaint([&] { read(header + '\n' + row + bad); }), HasSubstr("t.csv:3: found "));
   }
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hopmesh::scene {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 /// `free` nodes in a row behind a pinned one, springs of weight alpha between neighbours.
 Mesh chain(std::uint32_t free, double alpha, double mass) {
@@ -46,4 +48,4 @@ TEST(Frequency, APinnedMeshHasNone) {
 }
 
 } // namespace
-} // namespace hopmesh::scene
+} // namespace hopmesh::tests

@@ -1,6 +1,6 @@
 // Grids: places, springs, lengths and surface as the scene's documentation says, against counts and brute
 // force.
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,10 @@
 #include <gmock/gmock.h>
 #include <map>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 Scene with_springs(Scene scene, double structural, double shear, double bend) {
   scene.mesh.structural = structural;
@@ -146,4 +148,4 @@ TEST(Grid, refusesSizesThatNoFileCouldAskFor) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

@@ -1,12 +1,14 @@
 // Meshes from OBJ files: corners in all forms, polygons, edges as springs. Broken files are in bad/*.obj.
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <chrono>
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 using ::testing::ElementsAre;
 
@@ -50,7 +52,7 @@ TEST(Obj, aLineAlongAFaceIsNoSecondSpring) {
 }
 
 TEST(Obj, theFloorOfATensionIsAThousandthOfTheMeanSpringUnlessTold) {
-  const TempFolder temp;
+  const Folder temp;
   Scene scene = file_scene(temp.write("l.obj", "v 0 0 0\nv 1 0 0\nv 1 0 3\nl 1 2 3\n"));
   scene.mesh.law = SpringLaw::tension;
   EXPECT_DOUBLE_EQ(build_mesh(scene).floor, 2e-3);
@@ -138,4 +140,4 @@ TEST(Obj, ofThousandsOfNodesReadsInMilliseconds) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

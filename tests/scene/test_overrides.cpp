@@ -1,10 +1,12 @@
 // --set key.path=value: any key, TOML values or bare words, the last one wins, mistakes name --set.
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -140,4 +142,4 @@ TEST(Overrides, cannotSmuggleInASecondKey) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

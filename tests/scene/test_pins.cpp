@@ -1,10 +1,12 @@
 // Which nodes a pin holds, on grids and on meshes from files.
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 using ::testing::ElementsAre;
 
@@ -77,7 +79,7 @@ TEST(Pins, mustLeaveANodeFree) {
 // Two rows that nothing joins: one with a pin, one without.
 TEST(Pins, aStaticSceneNeedsOneInEveryPartOfTheMesh) {
   Scene scene = file_scene("");
-  const TempFolder temp;
+  const Folder temp;
   scene.mesh.file = temp.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 0 1\n"
                                           "f 1 2 3\nf 4 5 6\n");
   scene.mesh.pinned.emplace_back(std::int64_t{1});
@@ -126,4 +128,4 @@ TEST(Pins, theBandGrowsWithTheScale) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

@@ -1,14 +1,16 @@
 // Scene files: every key arrives, what is left out has its default, names and paths are found.
 #include "sim/input/shipped.h"
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include "place.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 using ::testing::ElementsAre;
 
@@ -105,9 +107,9 @@ TEST(SceneFile, pinsComeAloneOrInAList) {
 TEST(SceneFile, findsTheMeshBesideTheScene) {
   const Scene s = read_inputs(folder + "good/windows.toml", "", {}).scene;
   EXPECT_EQ(s.mesh.file, folder + "good/windows.obj");
-  const TempFolder temp;
+  const Folder temp;
   EXPECT_EQ(read_inputs(temp.write("a.toml", "[mesh]\nfile = \"../x/./y.obj\"\n"), "", {}).scene.mesh.file,
-            std::filesystem::path(temp.path("../x/y.obj")).lexically_normal());
+            std::filesystem::path((temp / "../x/y.obj")).lexically_normal());
   EXPECT_EQ(scene_of("[mesh]\nfile = \"/x.obj\"\n").mesh.file, "/x.obj");
 }
 
@@ -171,10 +173,10 @@ TEST(ShippedScenes, spotSaysWhatToDoWithoutItsMesh) {
 }
 
 TEST(ShippedScenes, aNameIsNotHiddenByAFolder) {
-  const TempFolder temp;
+  const Folder temp;
   const auto before = std::filesystem::current_path();
-  std::filesystem::create_directory(temp.path("flag-400"));
-  std::filesystem::current_path(temp.path(""));
+  std::filesystem::create_directory((temp / "flag-400"));
+  std::filesystem::current_path((temp / ""));
   const Scene s = read_inputs("flag-400", "", {}).scene;
   std::filesystem::current_path(before);
   EXPECT_EQ(s.mesh.grid->rows, 20);
@@ -195,4 +197,4 @@ TEST(ShippedScenes, flagsHaveThePapersNumbers) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

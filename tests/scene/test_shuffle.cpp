@@ -1,11 +1,13 @@
 // mesh.start: random places that are the same everywhere.
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <cmath>
 #include <set>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 Scene shuffled(int rows, int columns, double shuffle, std::int64_t seed) {
   Scene scene = grid_scene(rows, columns);
@@ -64,4 +66,4 @@ TEST(Shuffle, seedsDiffer) {
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

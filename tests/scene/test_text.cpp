@@ -1,13 +1,15 @@
 // Descriptions as text: what is written reads back equal, to the last bit of every number.
 #include "rtl_model/spec/array_rules.h"
 #include "sim/input/shipped.h"
-#include "tests/scene/scene_files.h"
+#include "tests/scene/scene_makers.h"
 
 #include <cmath>
 #include <random>
 
-namespace hopmesh::scene::testing {
+namespace hopmesh::tests {
 namespace {
+
+using namespace scene;
 
 void expect_equal(const MeshSpec& a, const MeshSpec& b) {
   ASSERT_EQ(a.grid.has_value(), b.grid.has_value());
@@ -121,10 +123,10 @@ TEST(Text, ofArraysReadsBack) {
   std::vector<spec::ArraySpec> arrays = spec::presets();
   arrays.push_back(read_inputs("flag-400", folder + "good/every_array_key.toml", {}).array);
   for (const spec::ArraySpec& a : arrays) {
-    const TempFolder temp;
+    const Folder temp;
     expect_equal(read_inputs("flag-400", temp.write("a.toml", array_text(a)), {}).array, a);
   }
 }
 
 } // namespace
-} // namespace hopmesh::scene::testing
+} // namespace hopmesh::tests

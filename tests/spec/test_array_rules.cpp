@@ -7,8 +7,10 @@
 #include <functional>
 #include <limits>
 
-namespace hopmesh::spec {
+namespace hopmesh::tests {
 namespace {
+
+using namespace spec;
 
 using Change = std::function<void(ArraySpec&)>;
 
@@ -160,4 +162,4 @@ TEST(ArrayRules, ExactAccumulatorByHand) {
 }
 
 } // namespace
-} // namespace hopmesh::spec
+} // namespace hopmesh::tests

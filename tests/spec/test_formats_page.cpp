@@ -1,5 +1,6 @@
 // docs/hardware/number-formats.md says what the oracle does: its tables are read, its pictures are drawn anew
 // and compared.
+#include "tests/support/files.h"
 #include "tests/support/slow_fixed.h"
 #include "tests/support/staircase.h"
 
@@ -9,8 +10,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace hopmesh::tests {
 namespace {
@@ -20,13 +19,6 @@ using spec::Overflow;
 using spec::Rounding;
 
 const std::string docs = std::string(HOPMESH_SOURCE_DIR) + "/docs/";
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// The page writes the minus sign as it should be; strtod wants a hyphen.
 std::string plain(std::string cell) {
@@ -38,18 +30,15 @@ std::string plain(std::string cell) {
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  std::istringstream parts(line);
-  std::string cell;
-  std::getline(parts, cell, '|');
-  while (std::getline(parts, cell, '|')) cells.push_back(plain(cell));
-  return cells;
+  for (const std::string& part : split(line, '|')) cells.push_back(plain(part));
+  if (cells.size() < 3) return {};
+  return {cells.begin() + 1, cells.end() - 1};
 }
 
 /// Rows of numbers of the table whose header begins with `corner`; the header first.
 std::vector<std::vector<std::string>> table(const std::string& corner) {
   std::vector<std::vector<std::string>> rows;
-  std::istringstream page(read_file(docs + "hardware/number-formats.md"));
-  for (std::string line; std::getline(page, line);) {
+  for (const std::string& line : lines_of(content_of(docs + "hardware/number-formats.md"))) {
     const auto cells = cells_of(line);
     if (rows.empty() ? !cells.empty() && cells[0] == corner : !cells.empty()) rows.push_back(cells);
     if (!rows.empty() && cells.empty()) break;
@@ -87,8 +76,8 @@ void expect_picture(const std::string& kind, std::string_view mode, const std::s
   std::string name(mode);
   for (char& c : name) c = static_cast<char>(std::tolower(c));
   const std::string path = docs + "pictures/" + kind + "-" + name + ".svg";
-  if (std::getenv("HOPMESH_DRAW")) std::ofstream(path, std::ios::binary) << drawn;
-  EXPECT_EQ(read_file(path), drawn) << path;
+  if (std::getenv("HOPMESH_DRAW")) write_text(path, drawn);
+  EXPECT_EQ(content_of(path), drawn) << path;
 }
 
 TEST(FormatsPage, RoundingPictures) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::spec {
+namespace hopmesh::tests {
 namespace {
+
+using namespace spec;
 
 TEST(NumberFormat, LeavesSystemCsDefaultsWhereTheTextSaysNothing) {
   const auto two = parse_format("fixed<8,2>");
@@ -64,4 +66,4 @@ TEST(NumberFormat, RangesAreThoseOfTwosComplement) {
 }
 
 } // namespace
-} // namespace hopmesh::spec
+} // namespace hopmesh::tests

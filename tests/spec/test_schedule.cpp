@@ -152,7 +152,7 @@ TEST(Topology, RowsFollowEachOtherWithoutGaps) {
 }
 
 TEST(Cycles, OneCellByHand) {
-  // One isolated cell: 3 taps. Divider at 14 fraction bits: 16; output 2. With 3 lanes a phase is 1 + 16 + 2.
+  // An isolated cell: 3 taps. Divider at 14 fraction bits: 16; output 2. With 3 lanes a phase is 1 + 16 + 2.
   const Topology t = topology_of(1, 3, {});
   ArraySpec a;
   a.schedule = Schedule::coloured;
@@ -217,6 +217,36 @@ TEST(Cycles, APhaseWaitsForItsLongestRow) {
   const auto m = spec::cycle_model(a, t, spec::phases_of(t, a.schedule));
   EXPECT_EQ(m.phase, (std::vector<std::uint64_t>{9, 9, 9, 12, 12, 12, 9, 9, 9, 6, 6, 6}));
   EXPECT_EQ(m.sweep, 109u);
+}
+
+TEST(Segments, FollowEachOtherAsThePageSays) {
+  const spec::CycleModel m{2, {4, 3}, 8};
+  std::vector<int> walked{spec::Segment::idle};
+  for (int sweeps = 0; walked.size() < 2 || walked.back() != spec::Segment::idle;) {
+    sweeps += walked.back() == spec::Segment::check;
+    walked.push_back(spec::next_segment(m, walked.back(), sweeps == 2));
+  }
+  using S = spec::Segment;
+  const int one = S::first_phase, two = S::first_phase + 1;
+  EXPECT_EQ(walked, (std::vector<int>{S::idle, S::start, S::prepare, one, two, S::check, one, two, S::check,
+                                      S::idle}));
+  EXPECT_EQ(spec::next_segment({0, {4}, 5}, S::start, false), one); // nothing to prepare
+}
+
+TEST(Segments, LastAsLongAsTheRunTheyMakeUp) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const ArrayJob job = random_job(seed);
+    const auto m =
+        spec::cycle_model(job.array, job.topology, spec::phases_of(job.topology, job.array.schedule));
+    std::uint64_t cycles = 0, sweeps = 0;
+    int at = spec::Segment::idle;
+    do {
+      at = spec::next_segment(m, at, sweeps == 3);
+      sweeps += at == spec::Segment::check;
+      cycles += spec::segment_cycles(m, at);
+    } while (at != spec::Segment::idle);
+    EXPECT_EQ(cycles, slow_cycles(job, 3)) << "seed " << seed;
+  }
 }
 
 TEST(Cycles, TheOraclesTableAndTheModelsFormulaAgree) {

@@ -10,7 +10,7 @@ namespace {
 
 using run::Positions;
 
-// One node. Whole: (3, 4, 0), 5 long. First part (3, 0, 0): projection 9/25. Second (0, 5, 0): 20/25.
+// A single node. Whole: (3, 4, 0), 5 long. First part (3, 0, 0): projection 9/25. Second (0, 5, 0): 20/25.
 // Third (0, -1, 0): -4/25.
 TEST(ErrorBudget, ByHand) {
   const Positions run{3, 4, 0}, b{0, 4, 0}, c{0, -1, 0}, truth{0, 0, 0};

@@ -1,10 +1,12 @@
-// One run made by hand for each class, and each border from both sides.
+// A run made by hand for each class, and each border from both sides.
 #include "sim/study/stability_class.h"
 
 #include <gtest/gtest.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 /// 40 steps of a swing: total energy 1, ten sweeps, at rest after each.
 std::vector<levels::StepRow> swing() {
@@ -72,4 +74,4 @@ TEST(StabilityClass, OverDampedDiesFasterThanFrictionExplains) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests

@@ -1,21 +1,19 @@
 // Study files: axes in their order, keys set together, and every mistake by its line.
 #include "sim/input/shipped.h"
 #include "sim/study/study_file.h"
+#include "tests/support/complaint.h"
 
 #include <gmock/gmock.h>
 
-namespace hopmesh::study {
+namespace hopmesh::tests {
 namespace {
+
+using namespace study;
 
 const std::string start = "scene = \"two-nodes\"\n";
 
 std::string refusal(const std::string& text) {
-  try {
-    study_of(text, "s.toml");
-  } catch (const input::InputError& error) {
-    return error.what();
-  }
-  return "nothing refused";
+  return complaint([&] { study_of(text, "s.toml"); });
 }
 
 TEST(StudyFile, PlainAxesKeepTheFilesOrderAndTheirValuesAsToml) {
@@ -86,4 +84,4 @@ TEST(StudyFile, EveryShippedStudyIsRead) {
 }
 
 } // namespace
-} // namespace hopmesh::study
+} // namespace hopmesh::tests

@@ -1,4 +1,4 @@
-// One relaxation from doubles to doubles: a network on a random mesh, the array for it, the codes that it
+// A relaxation from doubles to doubles: a network on a random mesh, the array for it, the codes that it
 // should get, and what the slow array makes of them. Whose bus the driver works is the caller's choice.
 #pragma once
 

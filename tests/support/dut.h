@@ -22,7 +22,7 @@ class Dut : public sc_core::sc_module {
   sc_core::sc_signal<bool> irq;
   sc_core::sc_time last_delay; ///< of the last transfer
 
-  /// One transfer of whole words; returns its response. Timing is only recorded.
+  /// A transfer of whole words; returns its response. Timing is only recorded.
   tlm::tlm_response_status transfer(tlm::tlm_command command, std::uint64_t address, void* data,
                                     unsigned bytes) {
     tlm::tlm_generic_payload payload;

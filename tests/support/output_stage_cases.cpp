@@ -42,6 +42,7 @@ std::vector<std::int64_t> sum_corners(std::int64_t n, int drive_fraction) {
 spec::ArraySpec stage_array(const spec::NumberFormat& stage) {
   spec::ArraySpec a;
   a.name = "output stage";
+  a.normaliser = spec::Normaliser::divider;
   a.formats.weight = {8, 8 - stage_unit, spec::Rounding::rnd, spec::Overflow::sat};
   a.formats.bias = {12, 12 - stage_unit, spec::Rounding::rnd, spec::Overflow::sat};
   a.exact_accumulator = false;

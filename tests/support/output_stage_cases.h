@@ -32,7 +32,7 @@ class StageJudge {
     s_ = s, n_ = n;
     return u_ = drive(array_, array_.formats.accumulator, s, static_cast<Wide>(n));
   }
-  /// One case: u and V' as the implementation under test has them.
+  /// A case: u and V' as the implementation under test has them.
   void judge(std::int64_t v, std::int64_t u, std::int64_t next) {
     tally_.cases += 1;
     const std::int64_t wanted = v + change(array_.formats, v, u_), one = array_.formats.state.one_raw();

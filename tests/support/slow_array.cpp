@@ -24,7 +24,7 @@ class SlowArray {
     }
   }
 
-  /// One sweep; returns the largest |Delta V|.
+  /// A sweep; returns the largest |Delta V|.
   std::int64_t sweep(const spec::Phases& phases) {
     std::int64_t largest = 0;
     for (const auto& phase : phases) {

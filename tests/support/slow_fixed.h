@@ -17,7 +17,7 @@ struct Cut {
   bool rest = false;   ///< any bit behind that one
 };
 
-/// Cuts magnitude * 2^-fraction at 2^-kept_fraction. Both fractions may be negative or large.
+/// Cuts magnitude * 2^-fraction at 2^-kept_fraction. Either fraction may be negative or large.
 Cut cut_bits(Wide magnitude, int fraction, int kept_fraction);
 /// Cuts the quotient at 1, by restoring division, one bit at a time. The denominator stays below 2^126.
 Cut cut_quotient(Wide numerator, Wide denominator);

@@ -23,8 +23,8 @@ Wide row_sum(const spec::ArraySpec& array, const std::vector<std::int64_t>& weig
 std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,
                    Wide n);
 
-/// Delta V: R u rounded to the state's last place. It may need one bit more than the state has (V from -1 to
-/// 1), so the state's overflow mode has no say.
+/// Delta V: R u rounded to the state's last place. Delta V may need one bit more than the state has (V from
+/// -1 to 1), so the state's overflow mode has no say.
 std::int64_t change(const spec::Formats& formats, std::int64_t v, std::int64_t u);
 
 /// L

@@ -21,6 +21,7 @@ inline scene::Scene grid_scene(int rows, int columns) {
 inline spec::ArraySpec fine_array() {
   spec::ArraySpec a;
   a.name = "fine";
+  a.normaliser = spec::Normaliser::divider;
   a.formats.weight = {25, 1, spec::Rounding::rnd, spec::Overflow::sat};
   a.formats.bias = {32, 8, spec::Rounding::rnd, spec::Overflow::sat};
   a.formats.drive = a.formats.state = a.formats.link = {26, 2, spec::Rounding::trn_zero, spec::Overflow::sat};

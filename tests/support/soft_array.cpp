@@ -1,18 +1,11 @@
 #include "tests/support/soft_array.h"
 
+#include "rtl_model/spec/capabilities.h"
+
 #include <algorithm>
 #include <cstdlib>
 
 namespace hopmesh::tests {
-
-namespace {
-
-std::uint32_t word_of(const spec::NumberFormat& f) {
-  return static_cast<std::uint32_t>(f.width | f.integer_bits << 8 | static_cast<int>(f.rounding) << 16 |
-                                    static_cast<int>(f.overflow) << 24);
-}
-
-} // namespace
 
 SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault)
     : job_{array, topology, {}, {}, {}}, fault_(fault), first_link_(topology.first_link),
@@ -20,16 +13,10 @@ SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topolog
   job_.weight.resize(topology.weight_words());
   job_.bias.resize(topology.neurons());
   job_.start.resize(topology.neurons());
-  registers_ = {{HM_REG_ID, HM_ID_VALUE},
-                {HM_REG_VERSION, HM_VERSION_VALUE},
-                {HM_REG_CAP_CELLS, topology.cells()},
-                {HM_REG_CAP_NEURONS_PER_CELL, topology.neurons_per_cell},
-                {HM_REG_CAP_LINK_WORDS, topology.link_to.size()},
-                {HM_REG_CAP_NORMALISER, static_cast<std::uint32_t>(array.normaliser)},
-                {HM_REG_CAP_OUTPUT, static_cast<std::uint32_t>(array.output)},
-                {HM_REG_CAP_FORMAT_WEIGHT, word_of(array.formats.weight)},
-                {HM_REG_CAP_FORMAT_BIAS, word_of(array.formats.bias)},
-                {HM_REG_CAP_FORMAT_STATE, word_of(array.formats.state)}};
+  registers_ = {{HM_REG_ID, HM_ID_VALUE}, {HM_REG_VERSION, HM_VERSION_VALUE}};
+  const std::size_t phases = spec::phases_of(topology, array.schedule).size();
+  for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
+    registers_[offset] = word;
 }
 
 std::uint32_t* SoftArray::word_at(std::uint32_t address) {

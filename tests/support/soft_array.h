@@ -11,7 +11,7 @@
 
 namespace hopmesh::tests {
 
-/// One output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
+/// An output bit flips at the end of a sweep, in every relaxation from `from_load` on. Sweeps are counted
 /// since outputs were last written, over all runs: like any real array, this one has no state in a sweep but
 /// V.
 struct Fault {

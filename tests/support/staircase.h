@@ -11,7 +11,7 @@ namespace hopmesh::tests {
 /// a full dot marks the value taken there.
 std::string draw_staircase(const std::string& title, int reach, const std::function<std::int64_t(int)>& code);
 
-/// One dot for every whole x with |x| <= reach; heights up to `height`.
+/// A dot for every whole x with |x| <= reach; heights up to `height`.
 std::string draw_dots(const std::string& title, int reach, int height,
                       const std::function<std::int64_t(int)>& code);
 

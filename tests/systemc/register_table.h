@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rtl_model/spec/array_rules.h"
-#include "tests/support/dut.h"
+#include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 
 #include <string>
@@ -76,12 +76,6 @@ inline ArrayJob lively_job(std::uint64_t seed, const spec::ArraySpec& array, con
   job.threshold = 0;
   job.max_sweeps = 3;
   return job;
-}
-
-inline void load(Dut& dut, const ArrayJob& job) {
-  dut.write(HM_WINDOW_WEIGHT, job.weight);
-  dut.write(HM_WINDOW_BIAS, job.bias);
-  dut.write(HM_WINDOW_OUTPUT, job.start);
 }
 
 } // namespace hopmesh::tests

@@ -19,11 +19,11 @@ using systemc::Sequencer;
 
 // ---- InputAccumulator
 
-/// One row on one accumulator: as a whole, beat by beat, and as the bit-serial neuron does it.
+/// A row on one accumulator: as a whole, beat by beat, and as the bit-serial neuron does it.
 void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, std::size_t per_source) {
   const std::size_t taps = sources * per_source;
   const spec::NumberFormat format = spec::accumulator_format(array, taps);
-  const systemc::Datapath path(array, format, per_source);
+  const systemc::Datapath path(array, taps, per_source);
   InputAccumulator whole("whole", path, taps), beats("beats", path, taps);
   const std::int64_t one = array.formats.link.one_raw();
   std::vector<std::vector<std::int32_t>> wires(sources, std::vector<std::int32_t>(per_source));
@@ -112,7 +112,7 @@ TEST(Stage, NoInputAtAllKeepsV) {
   for (auto normaliser : {Normaliser::divider, Normaliser::reciprocal})
     for (int rounding = 0; rounding < 7; ++rounding) {
       const auto a = stage_spec(normaliser, static_cast<Rounding>(rounding));
-      const systemc::Datapath path(a, spec::exact_accumulator_format(a.formats, 3), 3);
+      const systemc::Datapath path(a, 3, 3);
       OutputStage stage("stage", path);
       for (std::int64_t n : {5, 0}) { // and an N of an earlier run is forgotten
         stage.set_norm(n);
@@ -130,7 +130,7 @@ TEST(Stage, ABinaryOutputIsTheSignOfItsSumAndKeepsVAtZero) {
     for (int rounding = 0; rounding < 7; ++rounding) {
       auto a = stage_spec(static_cast<Normaliser>(normaliser), static_cast<Rounding>(rounding));
       a.output = spec::Output::binary;
-      const systemc::Datapath path(a, spec::exact_accumulator_format(a.formats, 3), 3);
+      const systemc::Datapath path(a, 3, 3);
       OutputStage stage("stage", path); // no N was ever told
       for (std::int64_t v : {-16384, -16383, -1, 0, 1, 16383, 16384})
         for (std::int64_t size : {std::int64_t{1}, std::int64_t{16384}, std::int64_t{1} << 39}) {
@@ -147,8 +147,7 @@ TEST(Stage, BoundsAreReachedAndNeverPassed) {
   for (int normaliser = 0; normaliser < 3; ++normaliser)
     for (int rounding = 0; rounding < 7; ++rounding) {
       const auto a = stage_spec(static_cast<Normaliser>(normaliser), static_cast<Rounding>(rounding));
-      const auto accumulator = spec::exact_accumulator_format(a.formats, 3); // 29 fraction bits
-      const systemc::Datapath path(a, accumulator, 3);
+      const systemc::Datapath path(a, 3, 3); // an exact accumulator of 29 fraction bits
       OutputStage stage("stage", path);
       const std::int64_t n = 32768, full = std::int64_t{1} << 29, one = 16384; // N = 1.0 of 15 fraction bits
       stage.set_norm(n);
@@ -171,8 +170,7 @@ TEST(Stage, TheReciprocalIsNeverTooLarge) {
   for (int bits : {4, 8, 18, 32}) {
     auto a = stage_spec(Normaliser::reciprocal, Rounding::trn_zero);
     a.reciprocal_bits = bits;
-    const auto accumulator = spec::exact_accumulator_format(a.formats, 27);
-    const systemc::Datapath path(a, accumulator, 3);
+    const systemc::Datapath path(a, 27, 3);
     OutputStage stage("stage", path);
     double worst = 0;
     for (int k = 0; k < 20000; ++k) {

@@ -122,7 +122,7 @@ TEST_F(Registers, BackToBackReadsAndWritesSeeEachOther) {
   }
 }
 
-/// One run and a START in the middle of it: both causes stand.
+/// A run and a START in the middle of it: both causes stand.
 TEST_F(Registers, AWrittenOneClearsACauseAndAZeroKeepsIt) {
   const auto both = [&] {
     dut.start(0, 1);

@@ -190,7 +190,7 @@ TEST_P(Ends, NothingMovesAndTheClockRestsLowBetweenRuns) {
     dut.start(0, 1);
     dut.run_to_cycle(slow_cycles(job, 1) + 1);
     EXPECT_FALSE(dut.device.cells.sequencer.clock().read());
-    EXPECT_EQ(dut.device.cells.sequencer.segment(), systemc::Sequencer::idle);
+    EXPECT_EQ(dut.device.cells.sequencer.segment(), spec::Segment::idle);
     EXPECT_FALSE(sc_core::sc_pending_activity());
     wait_for_edge(dut);
   }
@@ -224,7 +224,7 @@ std::string waking_name(const testing::TestParamInfo<Waking>& param) {
 }
 INSTANTIATE_TEST_SUITE_P(Wake, Ends, testing::Values(Waking::by_phase, Waking::by_clock), waking_name);
 
-/// One cell, cells without links, rows of zeros (N = 0): in every normaliser, both ways of waking.
+/// A single cell, cells without links, rows of zeros (N = 0): in every normaliser, both ways of waking.
 TEST(SmallArrays, EmptyRowsKeepVAndLoneCellsRelax) {
   std::vector<std::unique_ptr<Dut>> duts;
   std::vector<ArrayJob> jobs;

@@ -7,6 +7,7 @@
 namespace hopmesh::tests {
 namespace {
 
+using spec::Segment;
 using systemc::Sequencer;
 using Beat = std::pair<int, std::uint64_t>; ///< segment and beat
 
@@ -72,11 +73,11 @@ TEST(SequencerAlone, ShowsEveryBeatOfEverySegmentOnce) {
   b.sequencer.walk({0, UINT64_MAX});
   Dut::elaborate();
   run(b, 1);
-  const int phase = Sequencer::first_phase;
-  const std::vector<Beat> expected{{Sequencer::start, 0},
-                                   {Sequencer::prepare, 0},
-                                   {Sequencer::prepare, 1},
-                                   {Sequencer::prepare, 2},
+  const int phase = Segment::first_phase;
+  const std::vector<Beat> expected{{Segment::start, 0},
+                                   {Segment::prepare, 0},
+                                   {Segment::prepare, 1},
+                                   {Segment::prepare, 2},
                                    {phase, 0},
                                    {phase, 1},
                                    {phase, 2},
@@ -84,12 +85,12 @@ TEST(SequencerAlone, ShowsEveryBeatOfEverySegmentOnce) {
                                    {phase + 1, 0},
                                    {phase + 2, 0},
                                    {phase + 2, 1},
-                                   {Sequencer::check, 0}};
+                                   {Segment::check, 0}};
   EXPECT_EQ(b.listener.beats, expected);
   EXPECT_EQ(b.listener.done, (std::vector<std::uint64_t>{12}));
   EXPECT_TRUE(b.listener.prepared.empty());
   EXPECT_TRUE(b.listener.phased.empty());
-  EXPECT_EQ(b.sequencer.segment(), Sequencer::idle);
+  EXPECT_EQ(b.sequencer.segment(), Segment::idle);
 }
 
 TEST(SequencerAlone, WithoutPrepareGoesStraightToThePhases) {
@@ -97,9 +98,9 @@ TEST(SequencerAlone, WithoutPrepareGoesStraightToThePhases) {
   b.sequencer.walk({0, UINT64_MAX});
   Dut::elaborate();
   run(b, 1);
-  const int phase = Sequencer::first_phase;
+  const int phase = Segment::first_phase;
   EXPECT_EQ(b.listener.beats,
-            (std::vector<Beat>{{Sequencer::start, 0}, {phase, 0}, {phase, 1}, {Sequencer::check, 0}}));
+            (std::vector<Beat>{{Segment::start, 0}, {phase, 0}, {phase, 1}, {Segment::check, 0}}));
 }
 
 TEST(SequencerAlone, ByPhaseSpeaksAtTheEndOfEachSegmentOnly) {
@@ -122,7 +123,7 @@ TEST(SequencerAlone, AWindowWalksTheSegmentsItTouches) {
   run(b, 1);
   EXPECT_TRUE(b.listener.beats.empty());
   run(b, 1);
-  const int phase = Sequencer::first_phase;
+  const int phase = Segment::first_phase;
   EXPECT_EQ(b.listener.beats, (std::vector<Beat>{{phase, 0}, {phase, 1}, {phase, 2}, {phase, 3}}));
   EXPECT_EQ(b.sequencer.total_cycles(), 24u);
   EXPECT_EQ(b.sequencer.run_cycles(), 12u);
@@ -134,7 +135,7 @@ TEST(SequencerAlone, AWindowEndsWhereTheNextSegmentBegins) {
   Dut::elaborate();
   run(b, 1);
   EXPECT_EQ(b.listener.beats,
-            (std::vector<Beat>{{Sequencer::prepare, 0}, {Sequencer::prepare, 1}, {Sequencer::prepare, 2}}));
+            (std::vector<Beat>{{Segment::prepare, 0}, {Segment::prepare, 1}, {Segment::prepare, 2}}));
 }
 
 TEST(SequencerAlone, AnEmptyWindowWalksNothing) {

@@ -4,8 +4,9 @@
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
-#include "sim/levels/stop.h"
+#include "sim/levels/interrupt.h"
 #include "sim/run/array_info.h"
+#include "sim/run/children.h"
 #include "sim/run/progress.h"
 
 #include <algorithm>
@@ -102,14 +103,9 @@ int replay(const FuzzOptions& o, const Ways& all) {
     if (!cosim::differs_in_child(all, a_case.job)) continue;
     different += 1;
     fmt::print("case {}: ", a_case.name);
-    const int how = cosim::in_child(
-        [&] {
-          fmt::print("{}\n", cosim::contest(all, a_case.job).text);
-          std::fflush(stdout);
-          return 0;
-        },
-        60);
-    if (how != 0) fmt::print("one of the levels crashes ({})\n", how > 100 ? how - 100 : how);
+    const auto tell_difference = [&] { return fmt::print("{}\n", cosim::contest(all, a_case.job).text), 0; };
+    const run::ChildEnd end = run::run_in_child(tell_difference, 60);
+    if (!end.good()) fmt::print("one of the levels crashes ({})\n", end.signal ? end.signal : end.exit_code);
   }
   if (cases == 0) throw input::input_error(o.replay, 0, "", "no case", "case NAME");
   fmt::print("{}: {} of {} cases differ\n", o.replay, different, cases);

@@ -3,8 +3,8 @@
 
 #include "sim/cli/options.h"
 #include "sim/cosim/random_job.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/progress.h"
 #include "sim/run/simulation.h"
@@ -30,7 +30,7 @@ void refuse(const char* flag, const char* found, const std::string& expected) {
   throw input::input_error("", 0, flag, found, expected);
 }
 
-// One source: a scene's step, random cases, or a file to judge; and no flag that belongs to another.
+// A single source: a scene's step, random cases, or a file to judge; and no flag that belongs to another.
 void check_options(const VectorsOptions& o) {
   const int sources = !o.common.scene.empty() + (o.random > 0) + !o.check.empty();
   if (sources != 1)

@@ -2,8 +2,8 @@
 #include "sim/cosim/compare.h"
 
 #include "sim/cli/options.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
 #include "sim/run/progress.h"
 
 #include <algorithm>

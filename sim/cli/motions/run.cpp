@@ -1,8 +1,8 @@
 // hopmesh run: one simulation, its files and its figures.
 #include "sim/cli/options.h"
 #include "sim/files/output_file.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/checkpointer.h"
 #include "sim/run/progress.h"

@@ -2,8 +2,8 @@
 #include "sim/cli/options.h"
 #include "sim/files/matrix_market.h"
 #include "sim/files/npy.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/reference_motion.h"
-#include "sim/levels/stop.h"
 #include "sim/run/counted.h"
 #include "sim/run/progress.h"
 #include "sim/run/simulation.h"
@@ -63,7 +63,7 @@ int network(NetworkOptions& o) {
   fmt::print("{} step {}: {}, {}, {}; written to {}\n", p.inputs.scene.name, o.step,
              run::counted(static_cast<std::uint64_t>(motion.last_step().network.W.nonZeros()), "weight"),
              run::counted(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps", o.out);
-  if (p.inputs.scene.motion.formulation == scene::Formulation::incremental)
+  if (motion.formulation().increment)
     fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
   return done;
 }

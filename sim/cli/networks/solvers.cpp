@@ -1,7 +1,7 @@
 // hopmesh solvers: other ways to the answer of one step's network, beside the network's own and the array's.
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
-#include "sim/levels/stop.h"
+#include "sim/levels/interrupt.h"
 #include "sim/networks/array_solver.h"
 #include "sim/networks/step_problem.h"
 #include "sim/pictures/svg_chart.h"
@@ -159,15 +159,6 @@ int solvers(SolversOptions& o) {
   } catch (const levels::Stopped&) {
     return interrupted;
   }
-}
-
-CLI::Validator share() {
-  const auto judge = [](const std::string& text) {
-    double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value > 0 && value < 1) return std::string();
-    return fmt::format("found {}, expected a number above 0 and below 1", text);
-  };
-  return CLI::Validator(judge, "");
 }
 
 } // namespace

@@ -2,11 +2,12 @@
 #include "sim/cli/options.h"
 #include "sim/files/csv.h"
 #include "sim/levels/exact_step.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/levels/reference_motion.h"
-#include "sim/levels/stop.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
+#include "sim/run/run_totals.h"
 #include "sim/study/error_budget.h"
 #include "sim/study/truth_store.h"
 
@@ -30,7 +31,7 @@ struct BudgetOptions {
   double time = 0;
 };
 
-/// One motion of the chain, and what the next one mends.
+/// A motion of the chain, and what the next one mends.
 struct Link {
   std::string motion, mends;
   std::shared_ptr<levels::Motion> made;
@@ -44,10 +45,6 @@ struct Budget {
   std::vector<std::string> troubles; ///< in sentences
   std::vector<study::BudgetAt> rows; ///< where everybody came to
 };
-
-bool is_probe(const levels::Prepared& p) {
-  return p.inputs.scene.motion.formulation == scene::Formulation::probe;
-}
 
 void set_steps(const BudgetOptions& o, levels::Prepared& p) {
   scene::MotionSpec& motion = p.inputs.scene.motion;
@@ -92,8 +89,8 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
        "formulation",
        std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
        {}});
-  if (!is_probe(p))
-    chain.push_back({scene.incremental.rule + ", each step solved exactly",
+  if (levels::ExactStep::exists_for(scene))
+    chain.push_back({scene.formulation_name() + ", each step solved exactly",
                      "time step",
                      std::make_shared<levels::ExactStep>(scene, *p.mesh),
                      {}});
@@ -110,8 +107,8 @@ bool fly(const levels::Prepared& p, Link& link, Budget& budget) {
       run::simulate(*link.made, steps, {&snapshots, &progress}, levels::stop_requested);
   if (result.outcome == run::Outcome::diverged)
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
-  const auto unfinished = std::count_if(result.rows.begin(), result.rows.end(),
-                                        [](const levels::StepRow& row) { return !row.converged; });
+  const std::uint64_t unfinished =
+      run::count_of(result.rows, &levels::StepRow::converged, levels::Summary::unmet);
   if (unfinished > 0)
     link.motion += fmt::format(" ({} of {} steps ended by their sweeps)", unfinished, steps);
   link.at = std::move(snapshots.at);
@@ -150,7 +147,7 @@ void print(const levels::Prepared& p, const Budget& budget) {
   for (std::size_t k = 0; k + 1 < budget.chain.size(); ++k)
     fmt::print("  {:<22} {}\n  {:<22} less {}\n", budget.chain[k].mends, budget.chain[k].motion, "",
                budget.chain[k + 1].motion);
-  if (is_probe(p))
+  if (!levels::ExactStep::exists_for(p.inputs.scene))
     fmt::print(
         "The probe has no exact step that tends to this physics, so its time step has no part of its own: "
         "formulation\nis all that lies between its rest and the truth.\n");

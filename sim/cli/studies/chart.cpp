@@ -4,6 +4,7 @@
 #include "sim/input/whole_file.h"
 #include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_chart.h"
+#include "sim/study/result_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,6 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using files::CsvTable;
+using study::heading_of;
+using study::Point;
+using study::PointRow;
+using study::ResultColumn;
+using study::Role;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
@@ -29,35 +35,47 @@ std::size_t known_column(const CsvTable& table, const std::string& flag, const s
   return *found;
 }
 
+bool has_role(const std::string& heading, Role role) {
+  const ResultColumn* column = study::column_headed(heading);
+  return column && column->role == role;
+}
+
 bool has_numbers(const CsvTable& table, const std::string& name) {
   for (std::size_t r = 0; r < table.rows.size(); ++r)
     if (table.number(r, name).value_or(0) > 0) return true;
   return false;
 }
 
-// Time of the array where every method that got to the end has one, else of this machine.
-std::string default_y(const CsvTable& table) {
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    if (table.text(r, "status") == "finished" && table.number(r, "array_seconds").value_or(0) == 0)
-      return "host_seconds";
-  return has_numbers(table, "array_seconds") ? "array_seconds" : "host_seconds";
+bool is_finished(const CsvTable& table, std::size_t row) {
+  return table.text(row, heading_of(&PointRow::outcome)) == run::name_of(run::Outcome::finished);
 }
 
-// The last of a kind that says anything: the error that is worth most.
+// Time of the array where every method that got to the end has one, else of this machine.
+std::string default_y(const CsvTable& table) {
+  const std::string array = heading_of(&PointRow::array_seconds), host = heading_of(&PointRow::host_seconds);
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    if (is_finished(table, r) && table.number(r, array).value_or(0) == 0) return host;
+  return has_numbers(table, array) ? array : host;
+}
+
+// The last error that says anything is worth most.
 std::string default_x(const CsvTable& table) {
-  for (const char* kind : {"truth_error@", "reference_error@", "position_error", "output_error"})
-    for (std::size_t k = table.header.size(); k-- > 0;)
-      if (table.header[k].rfind(kind, 0) == 0 && has_numbers(table, table.header[k])) return table.header[k];
-  return "position_error";
+  for (std::size_t k = table.header.size(); k-- > 0;) {
+    const std::string& heading = table.header[k];
+    if (has_role(heading, Role::error) && has_numbers(table, heading)) return heading;
+  }
+  return heading_of(&PointRow::position_error);
 }
 
 std::string tip_of(const CsvTable& table, std::size_t row, std::size_t method, const std::string& x,
                    const std::string& y) {
-  std::string tip = fmt::format("point {}, {}", table.text(row, "point"), table.text(row, "method"));
+  std::string tip = fmt::format("point {}, {}", table.text(row, heading_of(&Point::number)),
+                                table.text(row, heading_of(&Point::method)));
   for (std::size_t k = 1; k < method; ++k)
     tip += fmt::format("\n{} = {}", table.header[k], table.rows[row][k]);
   return tip + fmt::format("\n{}: {}\n{}: {}\n{}, {}", x, table.text(row, x), y, table.text(row, y),
-                           table.text(row, "status"), table.text(row, "class"));
+                           table.text(row, heading_of(&PointRow::outcome)),
+                           table.text(row, heading_of(&PointRow::stability)));
 }
 
 /// What the points of one ladder share: all but the last axis.
@@ -77,7 +95,7 @@ pictures::ChartSeries& series_named(pictures::Chart& chart, const std::string& n
 // A colour a method; where there is one only, a colour for each place of the first axis.
 std::vector<pictures::ChartSeries> series_of(const CsvTable& table, const ChartOptions& o) {
   pictures::Chart chart;
-  const std::size_t method = known_column(table, "results.csv", "method");
+  const std::size_t method = known_column(table, "results.csv", heading_of(&Point::method));
   const bool one = std::all_of(table.rows.begin(), table.rows.end(),
                                [&](const auto& r) { return r[method] == table.rows[0][method]; });
   std::map<std::vector<std::string>, std::size_t> ladders;
@@ -88,9 +106,9 @@ std::vector<pictures::ChartSeries> series_of(const CsvTable& table, const ChartO
     const auto [place, fresh] = ladders.try_emplace(ladder_of(table, r, method), series.ladders.size());
     if (fresh) series.ladders.emplace_back();
     pictures::ChartPoint p;
-    p.failed = table.text(r, "status") != "finished";
+    p.failed = !is_finished(table, r);
     p.x = table.number(r, o.x).value_or(0), p.y = table.number(r, o.y).value_or(0);
-    p.tip = tip_of(table, r, method, o.x, o.y), p.command = table.text(r, "command");
+    p.tip = tip_of(table, r, method, o.x, o.y), p.command = table.text(r, heading_of(&Point::command));
     series.ladders[place->second].push_back(std::move(p));
   }
   return chart.series;
@@ -101,14 +119,15 @@ void add_line(const CsvTable& table, const std::string& x, const char* method, c
               pictures::Chart& chart) {
   double least = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r)
-    if (const auto error = table.number(r, x); error && *error > 0 && table.text(r, "method") == method)
+    if (const auto error = table.number(r, x);
+        error && *error > 0 && table.text(r, heading_of(&Point::method)) == method)
       least = least == 0 ? *error : std::min(least, *error);
   if (least > 0) chart.lines.push_back({least, name});
 }
 
 /// How far the truth itself is known.
 void add_floor(const CsvTable& table, const std::string& x, pictures::Chart& chart) {
-  const std::string error = "truth_error", floor = "truth_floor";
+  const std::string error = heading_of(&PointRow::truth_at), floor = heading_of(&PointRow::floor_at);
   if (x.rfind(error, 0) != 0) return;
   double most = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r)
@@ -116,16 +135,10 @@ void add_floor(const CsvTable& table, const std::string& x, pictures::Chart& cha
   if (most > 0) chart.lines.push_back({most, "truth floor"});
 }
 
-std::string axis_label(const std::string& column) {
-  if (column.find("seconds") != std::string::npos) return column + ", s";
-  return column.find('@') != std::string::npos || column == "position_error" ? column + " (rms), m" : column;
-}
-
-/// What is spent on a motion, in whatever currency.
-bool is_work(const std::string& column) {
-  for (const char* word : {"seconds", "cycles", "sweeps", "multiplies"})
-    if (column.find(word) != std::string::npos) return true;
-  return false;
+std::string axis_label(const std::string& heading) {
+  const ResultColumn* column = study::column_headed(heading);
+  if (!column || !*column->unit) return heading;
+  return fmt::format("{}{}, {}", heading, column->role == Role::error ? " (rms)" : "", column->unit);
 }
 
 int chart(ChartOptions o) {
@@ -146,7 +159,7 @@ int chart(ChartOptions o) {
   if (o.y.empty()) o.y = default_y(table);
   known_column(table, "--x", o.x), known_column(table, "--y", o.y);
   pictures::Chart c;
-  c.guides = is_work(o.y) && o.x.find("error") != std::string::npos; // bits, or widths, have no order
+  c.guides = has_role(o.y, Role::work) && has_role(o.x, Role::error); // bits, or widths, have no order
   c.title = fs::absolute(folder).lexically_normal().filename().string() + ": " +
             (c.guides ? "speed against accuracy" : o.y + " against " + o.x);
   c.x_label = axis_label(o.x), c.y_label = axis_label(o.y);

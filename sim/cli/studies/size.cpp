@@ -3,11 +3,12 @@
 #include "sim/cli/usage.h"
 #include "sim/files/csv.h"
 #include "sim/files/running_check.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/levels/reference_motion.h"
-#include "sim/levels/stop.h"
 #include "sim/run/array_info.h"
 #include "sim/run/counted.h"
+#include "sim/run/run_totals.h"
 #include "sim/study/size_search.h"
 #include "sim/study/truth_store.h"
 
@@ -57,7 +58,7 @@ Target target_of(const SizeOptions& o, const levels::Prepared& p, const fs::path
   if (result.outcome == run::Outcome::interrupted) throw study::SearchStopped();
   Target target;
   target.positions = reference.positions();
-  for (const levels::StepRow& row : result.rows) target.sweeps += row.sweeps;
+  target.sweeps = run::count_of(result.rows, &levels::StepRow::sweeps, levels::Summary::sum);
   if (result.outcome == run::Outcome::diverged) target.trouble = "the reference: " + result.sentence;
   if (o.against != truth || !target.trouble.empty()) return target;
   const double end = motion.time_step * static_cast<double>(motion.steps);
@@ -121,7 +122,11 @@ void write_evidence(const fs::path& file, const SizeOptions& o, const levels::Pr
     for (std::size_t knob = 0; knob < study::knob_count; ++knob) table.cell(sizing.text_of(e.setting, knob));
     const spec::ArraySpec array = sizing.array_of(e.setting);
     table.cell(run::memory_bits(*p.mesh, array).total()).cell(run::multiplier_bits(*p.mesh, array));
-    table.cell(e.row.status).cell(e.row.error).cell(e.fails_by).cell(e.row.sweeps).cell(e.row.cycles);
+    table.cell(name_of(e.row.outcome))
+        .cell(e.row.error)
+        .cell(e.fails_by)
+        .cell(e.row.sweeps)
+        .cell(e.row.cycles);
     table.cell(static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6));
     table.cell(command_of(o, sizing, e.setting)).end_row();
   }
@@ -161,8 +166,8 @@ void print_knobs(const study::Sizing& sizing, const study::SizeFound& found) {
     for (const char* what : {"one less", "two less"}) {
       const study::SizeEvidence* e = less(found, what, study::knob_names[knob]);
       fmt::print(" {:>24}", !e ? "at its least"
-                            : e->row.status != "finished"
-                                ? e->row.status
+                            : e->row.outcome != run::Outcome::finished
+                                ? std::string(name_of(e->row.outcome))
                                 : fmt::format("{:.3g} ({})", e->row.error, e->fails_by));
     }
     fmt::print("\n");

@@ -2,12 +2,13 @@
 #include "sim/cli/options.h"
 #include "sim/cli/studies/study_run.h"
 #include "sim/files/csv.h"
+#include "sim/input/number.h"
 #include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_map.h"
+#include "sim/study/result_table.h"
 #include "sim/study/study_folder.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -17,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using files::CsvTable;
+using study::heading_of;
+using study::Point;
+using study::PointRow;
 
 // In the order of study::Stability.
 constexpr const char* colours[study::stability_count] = {"#8fd19e", "#c0392b", "#e67e22", "#8e44ad",
@@ -27,9 +31,7 @@ constexpr double verlet_limit = 2, runge_kutta_limit = 2.83, sweeps_a_step = 0.4
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0;
-  const auto [stop, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-  return value;
+  return input::parse_number(text, value) ? std::optional(value) : std::nullopt;
 }
 
 bool is_numeric(const study::StudyAxis& axis) {
@@ -81,7 +83,7 @@ class MapOfStudy {
  private:
   /// The method and what else varies, but for the two axes.
   std::string panel_title(std::size_t row) const {
-    std::string title = table_.text(row, "method");
+    std::string title = table_.text(row, heading_of(&Point::method));
     for (std::size_t a = 0; a < study_.axes.size(); ++a)
       if (a != x_ && a != y_) title += ", " + table_.rows[row][1 + a];
     return title;
@@ -102,19 +104,19 @@ class MapOfStudy {
     pictures::MapPanel& panel = panel_of(row);
     const double x = *number_of(table_.rows[row][1 + x_]), y = *number_of(table_.rows[row][1 + y_]);
     pictures::MapCell& cell = panel.cells[index_of(map_.ys, y)][index_of(map_.xs, x)];
-    const std::string& name = table_.text(row, "class");
+    const std::string& name = table_.text(row, heading_of(&PointRow::stability));
     cell.kind = static_cast<std::size_t>(
         std::find(study::stability_names, study::stability_names + study::stability_count, name) -
         study::stability_names);
     cell.tip = fmt::format("{} = {}, {} = {}\n{}: {}", map_.x_label, x, map_.y_label, y, name,
-                           table_.text(row, "sentence"));
-    cell.command = table_.text(row, "command");
+                           table_.text(row, heading_of(&PointRow::sentence)));
+    cell.command = table_.text(row, heading_of(&Point::command));
     if (map_.x_label == "motion.time_step" && index_of(map_.xs, x) == 0) predict(row, y, panel);
   }
 
   /// The largest time steps at this y; omega and the budget of sweeps may depend on it.
   void predict(std::size_t row, double y, pictures::MapPanel& panel) {
-    const double omega = table_.number(row, "omega").value_or(0);
+    const double omega = table_.number(row, heading_of(&PointRow::omega)).value_or(0);
     if (omega <= 0) return;
     const auto inputs = study::inputs_of(study_, study::point_of(study_, row));
     const auto budget = static_cast<double>(inputs.scene.relax.max_sweeps);
@@ -135,9 +137,12 @@ class MapOfStudy {
 };
 
 void write_csv(const study::Study& study, const CsvTable& table, const fs::path& path) {
-  std::vector<std::string> columns{"point"};
+  std::vector<std::string> columns{heading_of(&Point::number)};
   for (const auto& axis : study.axes) columns.push_back(axis.name);
-  for (const char* name : {"method", "class", "status", "steps", "largest_strain", "omega", "command"})
+  for (const char* name :
+       {heading_of(&Point::method), heading_of(&PointRow::stability), heading_of(&PointRow::outcome),
+        heading_of(&PointRow::steps), heading_of(&PointRow::largest_strain), heading_of(&PointRow::omega),
+        heading_of(&Point::command)})
     columns.emplace_back(name);
   files::CsvWriter out(path, columns);
   for (std::size_t r = 0; r < table.rows.size(); ++r) {

@@ -3,10 +3,11 @@
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
 #include "sim/files/output_file.h"
+#include "sim/input/number.h"
+#include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/stop.h"
+#include "sim/run/children.h"
 #include "sim/run/progress.h"
-#include "sim/study/point_pool.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
 
@@ -31,9 +32,10 @@ struct Share {
 Share share_of(const StudyOptions& o) {
   Share share;
   if (o.share.empty()) return share;
-  char rest = 0;
-  const int read = std::sscanf(o.share.c_str(), "%zu/%zu%c", &share.first, &share.of, &rest);
-  if (read != 2 || share.of < 1 || share.first >= share.of || o.share.find('-') != std::string::npos)
+  const std::string_view text = o.share;
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  if (!input::parse_number(text.substr(0, slash), share.first) ||
+      !input::parse_number(text.substr(slash + 1), share.of) || share.first >= share.of)
     throw input::input_error("", 0, "--share", o.share, "K/N with K from 0 to N - 1");
   return share;
 }
@@ -59,22 +61,21 @@ int one_point(const study::Study& study, const study::StudyFolder& folder, const
     row =
         study::run_point(point, study::inputs_of(study, point), study.times, methods, levels::stop_requested);
   } catch (const std::exception& error) {
-    row.status = "failed";
+    row.outcome = run::Outcome::failed;
     row.stability = study::Stability::blow_up;
     row.sentence = error.what();
   }
-  if (levels::stop_requested || row.status == "interrupted") return interrupted;
+  if (levels::stop_requested || row.outcome == run::Outcome::interrupted) return interrupted;
   folder.keep(point, row);
   return done;
 }
 
 void keep_crash(const study::Study& study, const study::StudyFolder& folder, std::size_t number,
-                const study::ChildEnd& end) {
+                const run::ChildEnd& end) {
   study::PointRow row;
-  row.status = "crashed";
+  row.outcome = run::Outcome::crashed;
   row.stability = study::Stability::blow_up;
-  row.sentence = end.signal ? fmt::format("killed by signal {} ({})", end.signal, strsignal(end.signal))
-                            : fmt::format("ended with exit code {}", end.exit_code);
+  row.sentence = run::describe(end);
   folder.keep(study::point_of(study, number), row);
 }
 
@@ -87,9 +88,9 @@ bool run_local(const StudyOptions& o, const study::Study& study, const study::St
                 numbers.end());
   run::CountProgress progress("points", numbers.size());
   std::size_t count = 0;
-  return study::run_in_children(
+  return run::run_in_children(
       numbers, workers_of(o), [&](std::size_t n) { return one_point(study, folder, methods, n); },
-      [&](std::size_t n, const study::ChildEnd& end) {
+      [&](std::size_t n, const run::ChildEnd& end) {
         const bool asked = levels::stop_requested || end.exit_code == interrupted;
         if (!asked && !folder.has(n)) keep_crash(study, folder, n, end);
         progress.count(++count);

@@ -13,12 +13,10 @@ std::uint64_t unit_of(std::uint64_t period) {
 
 ClockedVcd::ClockedVcd(const WaveRequest& request, const engine::ClockedEngine& array, std::uint64_t period,
                        bool irq_now)
-    : array_(array), period_(period), file_(request.file, unit_of(period)), of_phase_(array.phases().size()),
-      sum_width_(array.formats().accumulator.width), drive_width_(array.formats().drive.width),
-      state_width_(array.formats().state.width) {
+    : array_(array), period_(period), file_(request.file, unit_of(period)), of_phase_(array.phases().size()) {
   for (const char* scope : {"SystemC", "array_0", "device"}) file_.open_scope(scope);
-  irq_ = file_.add("irq", 1);
-  file_.open_scope("cells");
+  irq_ = add(spec::irq_signal);
+  file_.open_scope(spec::cells_scope);
   if (request.cells.empty())
     for (std::size_t c = 0; c < array.topology().cells(); ++c) add_cell(c);
   for (std::size_t c : request.cells) add_cell(c);
@@ -29,32 +27,40 @@ ClockedVcd::ClockedVcd(const WaveRequest& request, const engine::ClockedEngine& 
   file_.set(irq_, irq_now);
 }
 
+std::size_t ClockedVcd::add(const spec::Signal& signal) {
+  return file_.add(signal.name, signal.width);
+}
+
 void ClockedVcd::add_cell(std::size_t cell) {
   const auto per_cell = static_cast<std::size_t>(array_.topology().neurons_per_cell);
-  file_.open_scope("cell_" + std::to_string(cell));
-  for (std::size_t p = 0; p < per_cell; ++p) {
-    file_.open_scope("neuron_" + std::to_string(p));
-    file_.open_scope("accumulator");
-    watched_.push_back({cell * per_cell + p, file_.add("s", sum_width_)});
-    file_.add("norm", 64);
-    file_.close_scope();
-    file_.open_scope("output");
-    file_.add("u", drive_width_);
-    file_.add("delta", state_width_ + 1);
-    file_.add("V", state_width_);
-    file_.close_scope();
-    file_.close_scope();
-  }
+  file_.open_scope(spec::cell_scope(cell));
+  for (std::size_t p = 0; p < per_cell; ++p) add_neuron(cell * per_cell + p, spec::neuron_scope(p));
+  file_.close_scope();
+}
+
+void ClockedVcd::add_neuron(std::size_t neuron, const std::string& scope) {
+  const spec::NeuronSignals signals = spec::neuron_signals(array_.formats());
+  file_.open_scope(scope);
+  file_.open_scope(spec::accumulator_scope);
+  watched_.push_back({neuron, add(signals.sum)});
+  add(signals.norm);
+  file_.close_scope();
+  file_.open_scope(spec::output_scope);
+  add(signals.drive);
+  add(signals.change);
+  add(signals.state);
+  file_.close_scope();
   file_.close_scope();
 }
 
 void ClockedVcd::add_sequencer() {
-  file_.open_scope("sequencer");
-  clock_ = file_.add("clock", 1);
-  segment_ = file_.add("segment", 32);
-  beat_ = file_.add("beat", 64);
-  busy_ = file_.add("busy", 1);
-  sweeps_ = file_.add("sweeps", 64);
+  namespace signals = spec::sequencer_signals;
+  file_.open_scope(signals::scope);
+  clock_ = add(signals::clock);
+  segment_ = add(signals::segment);
+  beat_ = add(signals::beat);
+  busy_ = add(signals::busy);
+  sweeps_ = add(signals::sweeps);
   file_.close_scope();
 }
 
@@ -100,16 +106,16 @@ void ClockedVcd::edge(std::uint64_t halves, int segment, bool asleep) {
   file_.set(clock_, 1);
   high_ = true;
   falls_ = halves + 1;
-  if (segment == engine::ClockedEngine::prepare)
+  if (segment == spec::Segment::prepare)
     for (const Watched& w : watched_) show_norm(w);
-  if (segment >= engine::ClockedEngine::first_phase)
-    for (const Watched& w : of_phase_[static_cast<std::size_t>(segment - engine::ClockedEngine::first_phase)])
+  if (segment >= spec::Segment::first_phase)
+    for (const Watched& w : of_phase_[static_cast<std::size_t>(segment - spec::Segment::first_phase)])
       show_phase(w);
   show_sequencer(asleep);
 }
 
 void ClockedVcd::show_sequencer(bool asleep) {
-  file_.set(segment_, asleep ? engine::ClockedEngine::idle : array_.segment());
+  file_.set(segment_, asleep ? +spec::Segment::idle : array_.segment());
   file_.set(beat_, static_cast<std::int64_t>(array_.beat()));
   file_.set(busy_, array_.busy());
   file_.set(sweeps_, array_.result().sweeps);

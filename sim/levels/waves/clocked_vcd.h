@@ -1,8 +1,9 @@
-// One VCD of a clock-stepped array: the signals of the SystemC array's wave under the same names, so that
+// The VCD of a clock-stepped array: the signals of the SystemC array's wave under the same names, so that
 // what somebody saved for a viewer fits both.
 #pragma once
 
-#include "sim/engine/clocked.h"
+#include "rtl_model/spec/signals.h"
+#include "sim/engine/clocked/clocked.h"
 #include "sim/files/vcd.h"
 #include "sim/levels/waves/wave_request.h"
 
@@ -32,7 +33,9 @@ class ClockedVcd {
     std::size_t neuron, signal; ///< s, N, u, Delta V, V from `signal` on
   };
 
+  std::size_t add(const spec::Signal& signal);
   void add_cell(std::size_t cell);
+  void add_neuron(std::size_t neuron, const std::string& scope);
   void add_sequencer();
   void at(std::uint64_t halves);
   void show_sequencer(bool asleep);
@@ -45,7 +48,6 @@ class ClockedVcd {
   std::size_t irq_ = 0, clock_ = 0, segment_ = 0, beat_ = 0, busy_ = 0, sweeps_ = 0;
   std::vector<Watched> watched_;
   std::vector<std::vector<Watched>> of_phase_;
-  int sum_width_, drive_width_, state_width_;
   std::uint64_t falls_ = 0, time_ = 0; ///< when the clock that is high falls; the last time shown
   bool high_ = false;
 };

@@ -102,7 +102,7 @@ void EngineWave::run(const engine::Engine& array, std::uint32_t threshold, std::
   while (array_.busy() && !stop) advance();
 }
 
-// One clock where it shows; else up to where the window begins, which is the middle of its first cycle: an
+// A clock where it shows; else up to where the window begins, which is the middle of its first cycle: an
 // edge belongs to the cycle that it ends.
 void EngineWave::advance() {
   constexpr std::uint64_t stride = 1 << 16; // a run of many cycles can be stopped
@@ -128,7 +128,7 @@ void EngineWave::clock() {
 }
 
 void EngineWave::ran(const engine::Engine& array) {
-  const engine::RunResult& result = array.result();
+  const spec::Relaxation& result = array.result();
   now_ = run_began_ + result.cycles;
   total_ += result.cycles;
   if (!stepped_) return;

@@ -2,6 +2,7 @@
 
 #include "sim/files/output_file.h"
 #include "sim/input/input_error.h"
+#include "sim/input/number.h"
 #include "sim/scene/limits.h"
 
 #include <algorithm>
@@ -17,8 +18,9 @@ void parse_window(const std::string& text, WaveRequest& request) {
   std::smatch part;
   if (!std::regex_match(text, part, shape))
     throw input::input_error("", 0, "--wave-window", text, "FROM:TO in steps, or FROM:TOc in cycles");
-  request.first = part[1].length() ? std::stoull(part[1]) : 0;
-  request.last = part[2].length() ? std::stoull(part[2]) : UINT64_MAX;
+  request.first = 0, request.last = UINT64_MAX;
+  input::parse_number(part[1].str(), request.first); // an end left out is none
+  input::parse_number(part[2].str(), request.last);
   request.in_cycles = part[3].length() > 0;
   if (request.first >= request.last)
     throw input::input_error("", 0, "--wave-window", text, "a window that begins before it ends");
@@ -30,7 +32,10 @@ std::vector<std::size_t> parse_cells(const std::string& text) {
     throw input::input_error("", 0, "--wave-cells", text, "cells like 0,4,10-12");
   std::vector<std::size_t> cells;
   for (auto at = std::sregex_iterator(text.begin(), text.end(), item); at != std::sregex_iterator(); ++at) {
-    const std::size_t first = std::stoul((*at)[1]), last = (*at)[2].matched ? std::stoul((*at)[2]) : first;
+    std::size_t first = 0;
+    input::parse_number((*at)[1].str(), first);
+    std::size_t last = first;
+    input::parse_number((*at)[2].str(), last); // none: a single cell
     if (first > last || last >= static_cast<std::size_t>(scene::most_nodes))
       throw input::input_error("", 0, "--wave-cells", at->str(), "a rising range of cells that exist");
     for (std::size_t c = first; c <= last; ++c) cells.push_back(c);

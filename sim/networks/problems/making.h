@@ -59,7 +59,7 @@ inline std::vector<double> random_signs(std::size_t n, Dice& dice) {
   return V;
 }
 
-// One maker a family; the numbers are in problem.cpp.
+// A maker for each family; the numbers are in problem.cpp.
 
 /// Hebb: W = 1/n sum of outer products; `projection`: W projects onto what the patterns span. Diagonal 0.
 struct MemoryPlan {

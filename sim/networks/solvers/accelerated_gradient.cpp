@@ -1,5 +1,5 @@
 // Accelerated projected gradient with restart (Nesterov 1983; O'Donoghue and Candes 2015).
-#include "sim/networks/solvers/solvers.h"
+#include "sim/networks/solvers/all_solvers.h"
 #include "sim/networks/solvers/spectrum.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Alternating directions (ADMM): a prefactored linear solve, a clamp, and a price for what they disagree by.
+#include "sim/networks/solvers/all_solvers.h"
 #include "sim/networks/solvers/factor.h"
-#include "sim/networks/solvers/solvers.h"
 #include "sim/networks/solvers/spectrum.h"
 
 namespace hopmesh::solvers {

@@ -1,7 +1,7 @@
 #include "sim/networks/solvers/answer.h"
 
 #include "sim/networks/solvers/factor.h"
-#include "sim/networks/solvers/solver.h"
+#include "sim/networks/solvers/network_solver.h"
 
 namespace hopmesh::solvers {
 namespace {

@@ -1,6 +1,6 @@
-// One sparse LDL' solve: the whole answer wherever the box does not matter.
+// A sparse LDL' solve: the whole answer wherever the box does not matter.
+#include "sim/networks/solvers/all_solvers.h"
 #include "sim/networks/solvers/factor.h"
-#include "sim/networks/solvers/solvers.h"
 
 namespace hopmesh::solvers {
 namespace {

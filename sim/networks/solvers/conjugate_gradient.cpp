@@ -1,6 +1,6 @@
 // Conjugate gradients within a box: MPRGP (Dostal, Schoeberl 2005). Where no bound is met they are the plain
 // ones.
-#include "sim/networks/solvers/solvers.h"
+#include "sim/networks/solvers/all_solvers.h"
 #include "sim/networks/solvers/spectrum.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What a network does: neurons answer their own inputs, phase by phase.
-#include "sim/networks/solvers/solvers.h"
+#include "sim/networks/solvers/all_solvers.h"
 
 #include <algorithm>
 

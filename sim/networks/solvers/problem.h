@@ -1,4 +1,4 @@
-// One step's question to the network, min E(V) = -1/2 V'WV - I'V with every |V| <= 1, as all solvers here
+// A step's question to the network, min E(V) = -1/2 V'WV - I'V with every |V| <= 1, as all solvers here
 // take it.
 #pragma once
 
@@ -22,12 +22,12 @@ struct Problem {
 
 /// Neurons that something reaches: not those of pinned nodes.
 std::vector<Eigen::Index> reached_neurons(const Problem& problem);
-/// The same problem of those alone, in their order, the start within the box.
+/// The problem of those neurons alone, in their order, the start within the box.
 Problem reached(const Problem& problem);
 
 /// s = WV + I: the way down.
 Vector inputs(const Problem& problem, const Vector& V);
-/// One of them.
+/// The input of a single neuron.
 double input(const Problem& problem, const Vector& V, Eigen::Index neuron);
 /// N_i = sum_j |W_ij| + |I_i|.
 Vector normalisers(const Problem& problem);

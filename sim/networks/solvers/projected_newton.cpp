@@ -1,6 +1,6 @@
 // An active-set Newton method (in the manner of More and Toraldo 1991): exact after a few factorisations.
+#include "sim/networks/solvers/all_solvers.h"
 #include "sim/networks/solvers/factor.h"
-#include "sim/networks/solvers/solvers.h"
 #include "sim/networks/solvers/spectrum.h"
 
 #include <cmath>

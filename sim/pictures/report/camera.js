@@ -1,4 +1,4 @@
-// One camera for both ways of drawing: it circles a target. Drag turns, wheel and pinch zoom, shift-drag moves.
+// The camera of both ways of drawing: it circles a target. Drag turns, wheel and pinch zoom, shift-drag moves.
 
 const FIELD_OF_VIEW = 30; // degrees, upright
 

@@ -1,6 +1,5 @@
-// One chart a series, over time. The line that marks the moment is shared: with the other charts and with the 3-D view.
+// A chart for each series, over time. The line that marks the moment is shared: with the other charts and with the 3-D view.
 
-const NAMES = { max_strain: "largest strain" };
 const CHART_HEIGHT = 180, LEFT = 52, RIGHT = 10, TOP = 14, BOTTOM = 34;
 
 function svg(parent, tag, attributes, text) {
@@ -74,7 +73,7 @@ function makeChart(parent, run, series, onHover) {
   const scale = makeScale(values), card = document.createElement("article");
   card.className = "chart";
   const head = document.createElement("h3"), name = document.createElement("span"), now = document.createElement("b");
-  name.textContent = NAMES[series.name] || series.name.replace(/_/g, " ");
+  name.textContent = series.name;
   const unit = document.createElement("small");
   unit.textContent = [series.unit, scale.log ? "log scale" : ""].filter(Boolean).join(" · ");
   name.append(unit);

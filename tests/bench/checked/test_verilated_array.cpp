@@ -115,7 +115,7 @@ void expect_every_cycle(VerilatedArray& array, const ArrayJob& job) {
   expect_result(array, slow);
 }
 
-/// One model, many networks, each loaded over the one before.
+/// A single model, many networks, each loaded over the one before.
 template <class Array> void compare_many(const char* name) {
   const BenchNetwork network = bench_network(name);
   Array array(network);
@@ -178,7 +178,7 @@ TEST(TimeMultiplexed, RandomMeshesAndSchedules) {
     tests::Dice dice(seed);
     BenchNetwork network = bench_network("small");
     network.topology = tests::random_topology(dice, 40);
-    network.array.schedule = static_cast<spec::Schedule>(dice.below(3));
+    network.array.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     try {
       TimeMultiplexed<time_multiplexed_small> array(network);
       const ArrayJob job = random_codes(seed, network);

@@ -1,6 +1,5 @@
-// Writes the sample run's report and animation for looking at: record_samples FOLDER. Not a test.
+// Writes the sample run's report and animation for looking at: picture_samples FOLDER. Not a test.
 #include "sim/files/output_file.h"
-#include "sim/pictures/flag_crest.h"
 #include "sim/pictures/gltf.h"
 #include "sim/pictures/report.h"
 #include "tests/pictures/sample_run.h"
@@ -11,12 +10,11 @@
 int main(int argc, char** argv) try {
   using namespace hopmesh::pictures;
   const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
-  check_writable(folder, 20'000'000);
+  hopmesh::files::check_writable(folder, 20'000'000);
   RunView view = sample_run();
   write_report(view, folder / "report.html");
   write_report(view, folder / "report-without-three.html", "/nonexistent");
   write_glb(view, folder / "mesh.glb");
-  write_file(folder / "crest.png", flag_crest());
   view.good = false;
   view.crest = false;
   view.outcome = "Diverged at step 212: node 57 left the range of the positions' format.";

@@ -1,0 +1,27 @@
+/* What the steps of the incremental potential share (docs/method/theory.md, section 4): outputs are changes
+   over a scale, a power of two chosen step by step so that they use their range without being clipped. */
+#ifndef HOPMESH_FIRMWARE_INCREMENTAL_H
+#define HOPMESH_FIRMWARE_INCREMENTAL_H
+
+#include "firmware/formulation.h"
+
+/* What acts on a coordinate of a free node beside its springs, as an acceleration. */
+static inline double hm_force_on(const hm_step_parameters* parameters, uint32_t node, uint32_t axis) {
+  return parameters->force[axis] + (parameters->node_force ? parameters->node_force[3 * node + axis] : 0.0);
+}
+
+/* The largest magnitude; what is no number counts as larger than any. */
+double hm_largest(const double* values, uint32_t count);
+
+void hm_clear_outputs(const hm_step_work* work);
+
+/* For a change of which half the range is expected to be used, as far as the work's most_scale allows. */
+void hm_choose_scale(const hm_step_work* work, double expected_change);
+
+/* hm_formulation.build of springs and inertia. */
+void hm_build_incremental(const hm_step_work* work);
+
+/* hm_formulation.relax: expands until the largest output is within its bounds. */
+int hm_relax_in_range(const hm_step_work* work);
+
+#endif

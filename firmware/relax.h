@@ -1,0 +1,32 @@
+/* Relaxing a network: who does it, and what it takes. */
+#ifndef HOPMESH_FIRMWARE_RELAX_H
+#define HOPMESH_FIRMWARE_RELAX_H
+
+#include "firmware/network.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hm_relaxation {
+  uint32_t sweeps, converged;
+  uint64_t cycles;
+} hm_relaxation;
+
+/* Whoever relaxes a network: the driver with an array behind it, or anything that answers the same way. */
+typedef struct hm_solver {
+  void* context;
+  int (*relax)(void* context, const hm_mesh* mesh, hm_network* network, double threshold, uint32_t max_sweeps,
+               hm_relaxation* result);
+} hm_solver;
+
+/* Relaxes from where the outputs are, which `start` keeps. Adds sweeps and cycles to the sum; its `converged`
+   becomes this relaxation's. HM_OK, or the solver's error, which leaves the sum alone. */
+int hm_relax(const hm_solver* solver, const hm_mesh* mesh, hm_network* network, double* start,
+             double threshold, uint32_t max_sweeps, hm_relaxation* sum);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,52 @@
+// What a wave of an array shows: scopes and signals by name, and how many bits each has. Every level that can
+// make a wave calls them so, and what somebody saved for a viewer fits all.
+#pragma once
+
+#include "rtl_model/spec/array_spec.h"
+
+namespace hopmesh::spec {
+
+struct Signal {
+  const char* name;
+  int width;
+};
+
+/// Of the device.
+inline constexpr Signal irq_signal{"irq", 1};
+
+/// Of the scope `sequencer`, beside the cells.
+namespace sequencer_signals {
+inline constexpr const char* scope = "sequencer";
+inline constexpr Signal clock{"clock", 1};
+inline constexpr Signal segment{"segment", 32}; ///< a number of Segment, of schedule.h
+inline constexpr Signal beat{"beat", 64};       ///< cycle of the segment
+inline constexpr Signal busy{"busy", 1};
+inline constexpr Signal sweeps{"sweeps", 64};
+} // namespace sequencer_signals
+
+/// Registers of a neuron. Of its scope `accumulator`: s and N. Of its scope `output`: u, Delta V and V.
+struct NeuronSignals {
+  Signal sum, norm, drive, change, state;
+};
+inline constexpr const char* accumulator_scope = "accumulator";
+inline constexpr const char* output_scope = "output";
+
+/// `built`: with the accumulator as built (built_formats).
+inline NeuronSignals neuron_signals(const Formats& built) {
+  return {{"s", built.accumulator.width},
+          {"norm", 64},
+          {"u", built.drive.width},
+          {"delta", built.state.width + 1}, // R u may reach 2
+          {"V", built.state.width}};
+}
+
+/// Scopes of the array, of a cell in it and of a neuron in that.
+inline constexpr const char* cells_scope = "cells";
+inline std::string cell_scope(std::size_t cell) {
+  return "cell_" + std::to_string(cell);
+}
+inline std::string neuron_scope(std::size_t p) {
+  return "neuron_" + std::to_string(p);
+}
+
+} // namespace hopmesh::spec

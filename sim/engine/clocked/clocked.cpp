@@ -1,0 +1,145 @@
+#include "sim/engine/clocked/clocked.h"
+
+#include "sim/engine/overflow.h"
+#include "sim/engine/row_walk.h"
+
+namespace hopmesh::engine {
+
+using spec::Segment;
+
+ClockedEngine::ClockedEngine(const spec::ArraySpec& array, const spec::Topology& topology)
+    : topology_(topology), phases_(spec::phases_of(topology, array.schedule)),
+      cycles_(spec::cycle_model(array, topology, phases_)), plan_(array, topology),
+      layout_(array, topology, phases_), normalise_cycles_(spec::normalise_cycles(array)),
+      beats_(plan_, layout_), row_(topology.neurons()) {
+  const auto per_cell = static_cast<std::size_t>(topology.neurons_per_cell);
+  for (std::size_t k = 0; k < row_.size(); ++k)
+    row_[k] = static_cast<std::uint32_t>(layout_.row(k / per_cell, k % per_cell));
+}
+
+void ClockedEngine::write_weights(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  walk_rows(
+      topology_, first, count, [&](std::size_t cell, std::size_t p, std::size_t tap, std::size_t piece) {
+        for (std::size_t k = 0; k < piece; ++k)
+          beats_.at.weight[layout_.weight(cell, p, tap + k)] = kept_bits(*words++, plan_.formats.weight);
+      });
+}
+
+void ClockedEngine::write_biases(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    beats_.at.bias[row_[first + k]] = kept_bits(words[k], plan_.formats.bias);
+}
+
+void ClockedEngine::write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  const auto one = static_cast<std::int32_t>(plan_.one_state);
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  for (std::size_t k = first; k < first + count; ++k) {
+    const std::int32_t code = std::min(std::max(kept_bits(*words++, plan_.formats.state), -one), one);
+    beats_.load(k / per_cell, k % per_cell, code);
+  }
+}
+
+void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
+  threshold_ = threshold;
+  max_sweeps_ = std::max(max_sweeps, 1u);
+  result_ = {};
+  done_ = false;
+  enter(Segment::start);
+}
+
+// Most clocks lie inside a phase and add one tap: they take this short way.
+void ClockedEngine::step() {
+  if (plain_.beat == nullptr || beat_ == 0 || beat_ + 1 >= length_) return step(1);
+  const ClockedBeat& b = plain_.beat[beat_];
+  if (b.rows > 0)
+    plain_.add(plain_.weights + beat_ * plain_.weight_stride, plain_.inputs + beat_ * plain_.input_stride,
+               b.rows, plain_.sums);
+  if (b.first_normalised < b.last_normalised)
+    beats_.normalise(plain_.row + b.first_normalised, plain_.row + b.last_normalised);
+  if (b.first_pulled < b.last_pulled)
+    beats_.pull_to_bound(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
+  beat_ += 1;
+  result_.cycles += 1;
+}
+
+void ClockedEngine::step(std::uint64_t clocks) {
+  while (clocks > 0 && segment_ != Segment::idle) {
+    const std::uint64_t left = length_ - beat_, some = std::min(clocks, left);
+    do_beats(beat_, beat_ + some);
+    clocks -= some;
+    result_.cycles += some;
+    beat_ += some;
+    if (some == left) leave_segment();
+  }
+}
+
+void ClockedEngine::enter(int segment) {
+  segment_ = segment;
+  beat_ = 0;
+  length_ = spec::segment_cycles(cycles_, segment);
+  plain_.beat = nullptr;
+  if (segment < Segment::first_phase) return;
+  const auto phase = static_cast<std::size_t>(segment - Segment::first_phase);
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  firing_ = {phase / per_cell, phase % per_cell, phase % per_cell + 1};
+  if (plan_.schedule == spec::Schedule::synchronous) firing_ = {0, 0, per_cell};
+  if (!beats_.plain() || firing_.last_p > firing_.first_p + 1) return;
+  const ClockedBank& bank = layout_.banks[firing_.bank];
+  const std::size_t row = bank.first_row + firing_.first_p * bank.width;
+  plain_ = {bank.beat.data(),
+            beats_.tap_adder(),
+            &beats_.at.weight[bank.first_weight + firing_.first_p * bank.taps * bank.width],
+            beats_.inputs(),
+            &beats_.at.sum[row],
+            row,
+            bank.width,
+            bank.input_stride()};
+}
+
+void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {
+  if (segment_ >= Segment::first_phase)
+    do_phase(first, last);
+  else if (segment_ == Segment::prepare)
+    do_prepare(first, last);
+}
+
+void ClockedEngine::do_prepare(std::uint64_t first, std::uint64_t last) {
+  for (const ClockedBank& bank : layout_.banks) {
+    if (first == 0) beats_.begin_norms(bank);
+    beats_.add_norms(bank, first, last);
+    if (last == cycles_.prepare) beats_.invert(bank);
+  }
+}
+
+// Accumulate, normalise, R u, publish: each row when its own beats are over, but all publish in the last one.
+void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
+  const ClockedBank& bank = layout_.banks[firing_.bank];
+  if (first == 0) {
+    beats_.take_links(bank, firing_.first_p == 0);
+    if (segment_ == Segment::first_phase) largest_ = 0;
+  }
+  const auto from = static_cast<std::int64_t>(first - normalise_cycles_);
+  const auto to = from + static_cast<std::int64_t>(last - first);
+  const auto normalised = bank.with_beats(from + 1, to), pulled = bank.with_beats(from, to - 1);
+  for (std::size_t p = firing_.first_p; p < firing_.last_p; ++p) {
+    const std::size_t row = bank.first_row + p * bank.width;
+    if (first == 0) beats_.begin_sums(bank, p);
+    beats_.add_beats(bank, p, first, last);
+    if (normalised.first < normalised.second)
+      beats_.normalise(row + normalised.first, row + normalised.second);
+    if (pulled.first < pulled.second) beats_.pull_to_bound(row + pulled.first, row + pulled.second);
+    if (last == length_) largest_ = std::max(largest_, beats_.publish(bank, p));
+  }
+}
+
+void ClockedEngine::leave_segment() {
+  if (segment_ == Segment::check) {
+    result_.sweeps += 1;
+    result_.largest_change = static_cast<std::uint32_t>(largest_);
+    result_.converged = largest_ <= threshold_;
+  }
+  enter(spec::next_segment(cycles_, segment_, result_.converged || result_.sweeps == max_sweeps_));
+  done_ = segment_ == Segment::idle;
+}
+
+} // namespace hopmesh::engine

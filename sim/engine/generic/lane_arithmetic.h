@@ -1,0 +1,50 @@
+// Arithmetic on sixteen rows side by side, in 64 bits, for the generic core and the clock-stepped engine:
+// plain loops that the compiler turns into wide instructions, once for each kind of processor.
+#pragma once
+
+#include "sim/engine/overflow.h"
+#include "sim/engine/rounding.h"
+
+#include <cstddef>
+
+namespace hopmesh::engine {
+
+inline constexpr std::size_t lane_count = 16;
+
+struct Swing {
+  std::int64_t least, largest;
+};
+
+/// link[tap] <- plane[slot]: the inputs of sixteen rows from one plane of outputs.
+void gather_lanes(const std::int32_t* plane, const std::uint32_t* slots, std::int32_t* links);
+/// sums += weights * links over `taps` rows of lanes.
+void add_lane_products(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
+                       std::int64_t* sums);
+/// A rounding accumulator: for each group of `group` taps x <- Q[x + products], products moved up by
+/// `product_up` places to a last place that lies `rounding.places` below that of x.
+void add_lane_groups(const std::int32_t* weights, const std::int32_t* links, std::size_t taps,
+                     std::size_t group, int product_up, const ShiftRounding& rounding, const Limit& limit,
+                     std::int64_t* x);
+/// x <- x * 2^up / divisor rounded, 0 where the divisor is 0. |x| 2^up < 2^61, |quotient| < 2^50.
+void divide_lanes(std::int64_t* x, int up, const std::int64_t* divisor, const RoundingRule& rule);
+/// x <- x * 2^up + more * 2^more_up.
+void shift_and_add_lanes(std::int64_t* x, int up, const std::int64_t* more, int more_up);
+void multiply_lanes(std::int64_t* x, const std::int64_t* factor);
+/// x <- x * factor rounded, held within [-bound, bound].
+void scale_lanes(std::int64_t* x, const std::int64_t* factor, const ShiftRounding& rounding,
+                 std::int64_t bound);
+/// x <- x * factor * 2^-places rounded, each lane by its own places in [0, 60]; products fit 62 bits.
+void scale_lanes_apart(std::int64_t* x, const std::int64_t* factor, const int* places,
+                       const RoundingRule& rule);
+void round_lanes(std::int64_t* x, const ShiftRounding& rounding);
+/// Each code brought into the format's range.
+void limit_lanes(std::int64_t* x, const Limit& limit);
+/// x <- one, 0 or -one, by its sign.
+void sign_lanes(std::int64_t* x, std::int64_t one);
+void clamp_lanes(std::int64_t* x, std::int64_t bound);
+void widen_swing(const std::int64_t* x, Swing& swing);
+/// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.
+std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const ShiftRounding& to_state,
+                          const ShiftRounding& to_link, std::int32_t* state, std::int32_t* link);
+
+} // namespace hopmesh::engine

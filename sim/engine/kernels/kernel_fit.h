@@ -1,0 +1,17 @@
+// Which arrays the kernels can compute, and what such an array is in their terms.
+#pragma once
+
+#include "sim/engine/kernels/kernel.h"
+#include "sim/engine/neuron_plan.h"
+
+#include <string>
+
+namespace hopmesh::engine {
+
+Normalise normalise_of(const NeuronPlan& plan);
+/// Why the kernels cannot compute the array, for people; empty if they can.
+std::string why_no_kernel(const NeuronPlan& plan);
+
+KernelDivision kernel_division(int ratio_up, spec::Rounding mode);
+
+} // namespace hopmesh::engine

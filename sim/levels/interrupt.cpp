@@ -1,0 +1,23 @@
+#include "sim/levels/interrupt.h"
+
+#include <csignal>
+#include <unistd.h>
+
+namespace hopmesh::levels {
+
+std::atomic<bool> stop_requested{false};
+
+namespace {
+
+void on_signal(int) {
+  if (stop_requested.exchange(true)) _exit(130);
+}
+
+} // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+} // namespace hopmesh::levels

@@ -1,0 +1,146 @@
+// What a step leaves behind: a row of steps.csv. A column is a member of StepRow or ReferenceError and a line
+// of all_step_columns; the writer and the reader of the file, statistics, report and docs walk these lines.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+namespace hopmesh::levels {
+
+/// How the array's answer to a step differs from the double reference's answer to the same step (same
+/// positions, velocities and start). The reference relaxes to the same threshold, in the same order.
+struct ReferenceError {
+  double largest_output = 0, rms_output = 0; ///< |V - V_reference|
+  /// (E(V) - E(V_ref)) / (E(V0) - E(V_ref)), of the network's energy; 0 where nothing falls.
+  double energy_gap = 0;
+  double network = 0;
+  double alternation = 0; ///< of a step that did not come to rest: as in StepRow
+};
+
+struct StepRow {
+  std::uint64_t step = 0;
+  double time = 0;
+  std::uint64_t sweeps = 0, cycles = 0;
+  double energy = 0, kinetic = 0, max_strain = 0, max_stretch = 0;
+  std::uint64_t saturated = 0;
+  bool converged = false;
+  /// Of a step that did not converge: 1 where outputs swing between two states for ever.
+  double alternation = 0;
+  std::uint64_t bus_cycles = 0, clipped = 0;
+  std::optional<ReferenceError> error; ///< where the reference was asked
+  std::uint64_t hash = 0;
+};
+
+/// A figure that stands in its cell as 16 hexadecimal digits.
+struct HashFigure {
+  std::uint64_t StepRow::*member;
+};
+
+/// Where a row keeps the figure of a column.
+using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*, HashFigure,
+                                double ReferenceError::*>;
+
+/// What a column is about. Statistics and report show its totals and its curve only where a run has that.
+enum class Subject {
+  motion,
+  relaxation, ///< of a network
+  clock,      ///< of a simulated array
+  network,    ///< as loaded into an array
+  reference   ///< the array's answers against it
+};
+
+/// A figure made of a whole column. The totals of a subject are shown in this order.
+enum class Summary {
+  sum,
+  unmet, ///< of a condition: the steps in which it did not hold
+  rms,
+  median,
+  largest ///< 0 where nothing is above
+};
+
+struct Total {
+  Summary how = Summary::sum;
+  const char* key = nullptr;    ///< in stats.json; null: this is no total
+  const char* name = nullptr;   ///< in the report; null where another line there says it
+  const char* format = nullptr; ///< of its value in the report, as {fmt} has it; a count comes as "12,345"
+  double factor = 1;            ///< the report shows so many times the figure: 100 for a share in percent
+};
+
+/// A chart of the report.
+struct Curve {
+  const char* name = nullptr; ///< null: this is no curve
+  const char* unit = "";
+  double factor = 1; ///< as of a total
+};
+
+struct StepColumn {
+  constexpr StepColumn(const char* called, const char* measured_in, const char* meaning, StepFigure of,
+                       Subject about, Curve drawn = {}, Total first = {}, Total second = {})
+      : name(called), unit(measured_in), words(meaning), figure(of), subject(about),
+        curve(drawn), totals{first, second} {}
+
+  const char *name, *unit;
+  const char* words; ///< its meaning, as the docs print it
+  StepFigure figure;
+  Subject subject;
+  Curve curve;
+  Total totals[2];
+};
+
+/// In the order of the file.
+inline constexpr StepColumn all_step_columns[] = {
+    StepColumn("step", "", "from 0", &StepRow::step, Subject::motion),
+    StepColumn("time", "s", "at the step's end", &StepRow::time, Subject::motion),
+    StepColumn("sweeps", "", "of the network, all expansions together", &StepRow::sweeps, Subject::relaxation,
+               Curve{"sweeps a step"}, Total{Summary::sum, "sweeps", "sweeps", "{}"}),
+    StepColumn("cycles", "cycles", "of the array, from START taken to DONE; 0 at level reference",
+               &StepRow::cycles, Subject::clock, Curve{"array cycles a step"},
+               Total{Summary::sum, "simulated_cycles"}),
+    StepColumn(
+        "energy", "J",
+        "Σ α (length − rest length)², or Σ α √(length² + floor²) where `mesh.springs.law = \"tension\"`",
+        &StepRow::energy, Subject::motion, Curve{"elastic energy", "J"}),
+    StepColumn("kinetic", "J", "Σ ½ m v²", &StepRow::kinetic, Subject::motion, Curve{"kinetic energy", "J"}),
+    StepColumn("max_strain", "", "largest |length / rest length − 1|", &StepRow::max_strain, Subject::motion,
+               Curve{"largest strain", "%", 100},
+               Total{Summary::largest, "largest_strain", "largest strain", "{:.1f} %", 100}),
+    StepColumn("saturated", "", "outputs at rest at +1 or −1", &StepRow::saturated, Subject::relaxation,
+               Curve{"outputs at +1 or -1"}),
+    StepColumn("converged", "", "1: the threshold was met; 0: stopped by `relax.max_sweeps`",
+               &StepRow::converged, Subject::relaxation, {},
+               Total{Summary::unmet, "steps_stopped_by_max_sweeps", "steps stopped by max_sweeps", "{}"}),
+    StepColumn("max_stretch", "",
+               "largest length / rest length (length as built where the rest length is 0); a run ends at 10",
+               &StepRow::max_stretch, Subject::motion),
+    StepColumn("bus_cycles", "cycles", "that the host held the bus", &StepRow::bus_cycles, Subject::clock, {},
+               Total{Summary::sum, "bus_cycles"}),
+    StepColumn("clipped", "", "weights and biases of the step that did not fit their format",
+               &StepRow::clipped, Subject::network, {},
+               Total{Summary::sum, "clipped", "weights and biases clipped", "{}"}),
+    StepColumn("output_error", "",
+               "largest |V − V of the reference|, the reference answering the very same step",
+               &ReferenceError::largest_output, Subject::reference,
+               Curve{"largest output error against the reference"},
+               Total{Summary::largest, "largest_output_error", "largest output error", "{:.3g}"}),
+    StepColumn(
+        "output_error_rms", "", "root mean square over neurons of that difference",
+        &ReferenceError::rms_output, Subject::reference, {},
+        Total{Summary::median, "median_output_error_rms", "output error of a step", "{:.3g} rms (median)"}),
+    StepColumn(
+        "energy_gap", "", "energy left above the reference's rest, as a part of the step's fall",
+        &ReferenceError::energy_gap, Subject::reference,
+        Curve{"energy left above the reference's rest", "of its fall"},
+        Total{Summary::median, "median_energy_gap", "energy left of a step's fall", "{:.3g} (median)"},
+        Total{Summary::largest, "largest_energy_gap", "largest energy left", "{:.3g} of a step's fall"}),
+    StepColumn("network_error", "",
+               "largest difference of a weight or bias (before rounding) from the reference's, over the "
+               "largest of them",
+               &ReferenceError::network, Subject::reference, {},
+               Total{Summary::largest, "largest_network_error", "largest weight or bias error",
+                     "{:.2g} of the largest"}),
+    StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
+               HashFigure{&StepRow::hash}, Subject::motion),
+};
+
+} // namespace hopmesh::levels

@@ -1,0 +1,126 @@
+// hopmesh info: numbers counted by hand and by the formulas of docs/hardware/cycles.md; --toml gives the
+// files back.
+#include "tests/support/cli_test.h"
+
+#include <regex>
+
+namespace hopmesh::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CliInfo : public Cli {
+ protected:
+  /// The value in the row of that name.
+  static std::string row(const std::string& out, const std::string& name) {
+    std::string start = "  " + name;
+    start.resize(31, ' '); // where values begin
+    for (const std::string& line : lines_of(out))
+      if (line.rfind(start, 0) == 0) return line.substr(start.size());
+    return "no row " + name;
+  }
+};
+
+TEST_F(CliInfo, TwoNodesByHand) {
+  const std::string out = good("info two-nodes").out;
+  EXPECT_EQ(row(out, "nodes"), "2");
+  EXPECT_EQ(row(out, "cells (free nodes)"), "1");
+  EXPECT_EQ(row(out, "neurons"), "3 (3 a cell)");
+  EXPECT_EQ(row(out, "links between cells"), "0");
+  EXPECT_EQ(row(out, "inputs of a neuron"), "at most 3");
+  EXPECT_EQ(row(out, "schedule"), "coloured, 3 phases a sweep (1 colours)");
+  EXPECT_EQ(row(out, "longest phase"), "7 = 3 accumulate + 2 normalise + 2 output");
+  EXPECT_EQ(row(out, "sweep"), "22");               // 3 * 7 + 1
+  EXPECT_EQ(row(out, "prepare, once a run"), "22"); // 3 + 18 + 1
+  EXPECT_EQ(row(out, "run of n sweeps"), "23 + 22 n");
+  EXPECT_EQ(row(out, "load weights, bias, start"), "18 on the bus"); // (1 + 9) + 2 (1 + 3)
+  // F = 15 + 14; I = max(1 + 1, 9) + 2, as 3 products and a bias need two more bits
+  EXPECT_EQ(row(out, "accumulator"), "fixed<40,11,SC_TRN,SC_WRAP> (exact)");
+  EXPECT_EQ(row(out, "pinned nodes"), "1: no cell, 3 neurons fewer");
+  EXPECT_EQ(row(out, "springs to pinned nodes"), "1: in the bias, no link");
+}
+
+TEST_F(CliInfo, Flag400ByHand) {
+  const std::string out = good("info flag-400").out;
+  EXPECT_EQ(row(out, "nodes"), "400");
+  EXPECT_EQ(row(out, "cells (free nodes)"), "380");
+  EXPECT_EQ(row(out, "neurons"), "1,140 (3 a cell)");
+  // Free: 20 rows of 19. Structural 20 * 18 + 19 * 19, shear 2 * 19 * 18.
+  EXPECT_EQ(row(out, "links between cells"), "1,405");
+  EXPECT_EQ(row(out, "inputs of a neuron"), "at most 27"); // 3 (1 + 8)
+  EXPECT_EQ(row(out, "multipliers"), "1 a neuron, 1,140 in all");
+  EXPECT_EQ(row(out, "schedule"), "coloured, 12 phases a sweep (4 colours)");
+  EXPECT_EQ(row(out, "sweep"), "373");              // 12 (27 + 2 + 2) + 1
+  EXPECT_EQ(row(out, "prepare, once a run"), "46"); // 27 + 18 + 1
+  EXPECT_EQ(row(out, "run of n sweeps"), "47 + 373 n");
+  EXPECT_EQ(row(out, "time of a sweep"), "3.73 us");
+  EXPECT_EQ(row(out, "load weights, bias, start"),
+            "30,993 on the bus");             // 1 + 9 (380 + 2 * 1405) + 2 (1 + 1140)
+  EXPECT_EQ(row(out, "weights"), "56.1 KiB"); // 28,710 words of 16 bits
+  EXPECT_EQ(row(out, "springs to pinned nodes"), "58: in the bias, no link"); // 20 + 38
+  EXPECT_EQ(row(out, "springs between pinned nodes"), "19: no link");
+}
+
+TEST_F(CliInfo, FollowsTheArray) {
+  const std::string descent = good("info flag-400 --array descent").out;
+  EXPECT_EQ(row(descent, "longest phase"), "45 = 27 accumulate + 16 normalise + 2 output"); // divider: 14 + 2
+  EXPECT_EQ(row(descent, "run of n sweeps"), "28 + 541 n");
+  const std::string lanes = good("info flag-400 --set array.lanes=4 --set array.bus_bits=128").out;
+  EXPECT_EQ(row(lanes, "longest phase"), "11 = 7 accumulate + 2 normalise + 2 output");
+  EXPECT_EQ(row(lanes, "load weights, bias, start"),
+            "7,751 on the bus"); // 1 + 7178 (of 4 words) + 2 (1 + 285)
+  EXPECT_EQ(row(good("info flag-400 --set array.schedule=sequential").out, "schedule"),
+            "sequential, 1,140 phases a sweep");
+  EXPECT_EQ(row(good("info flag-400 --array prescaled").out, "run of n sweeps"), "1 + 361 n"); // 12 * 30 + 1
+}
+
+TEST_F(CliInfo, FollowsTheScene) {
+  const std::string out = good("info two-nodes --set mesh.planar=true").out;
+  EXPECT_EQ(row(out, "neurons"), "2 (2 a cell)");
+  EXPECT_EQ(row(out, "third neuron of a cell"), "planar: y never moves");
+  EXPECT_EQ(row(out, "sweep"), "13"); // 2 (2 + 2 + 2) + 1
+}
+
+TEST_F(CliInfo, SaysWhatEachSceneLeavesOut) {
+  const auto left_out = [this](const std::string& scene, const std::string& name) {
+    return row(good("info " + scene).out, name);
+  };
+  EXPECT_EQ(left_out("free-net", "pins"), "none given: every node has a cell");
+  EXPECT_EQ(left_out("free-net", "drag of the air"), "none given");
+  EXPECT_EQ(left_out("free-net", "start"), "up to 0.005 m off its place, seed 1, at rest");
+  EXPECT_EQ(left_out("chain", "shear springs"), "weight 0: not built");
+  EXPECT_EQ(left_out("chain", "third neuron of a cell"), "planar: y never moves");
+  EXPECT_EQ(left_out("chain", "wind"), "none given");
+  EXPECT_EQ(left_out("net", "error of the expansion"), "rest length 0: the energy is quadratic");
+  EXPECT_EQ(left_out("cloth-rest", "inertia, speed"), "static: each step minimises springs and weight alone");
+  EXPECT_EQ(left_out("banner", "friction"), "a factor of 1: none");
+  EXPECT_EQ(left_out("flag-400", "acceleration before"), "memory 0: each step probes anew");
+  EXPECT_EQ(left_out("flag-400-literal", "acceleration before"), "no row acceleration before");
+  EXPECT_EQ(left_out("two-nodes --set force.gravity=[0,0,0]", "gravity"), "none given");
+  EXPECT_EQ(left_out("two-nodes --set probe.beta=0", "unit-length term"), "beta 0: outputs of any length");
+  EXPECT_EQ(left_out("banner --set motion.friction=0", "velocity"), "friction 0: each step starts from rest");
+}
+
+TEST_F(CliInfo, TomlGivesScenesAndArraysBack) {
+  const std::string changes = " --steps 3 --set probe.gamma=123.25 --set mesh.pinned=[0] --set array.lanes=2";
+  const std::string toml = good("info two-nodes --toml --array byte --set motion.steps=3 --set "
+                                "probe.gamma=123.25 --set array.lanes=2")
+                               .out;
+  const auto cut = toml.find("\n# array\n");
+  ASSERT_EQ(toml.rfind("# scene\n", 0), 0u);
+  ASSERT_NE(cut, std::string::npos);
+  write_text(at("s.toml"), toml.substr(0, cut + 1));
+  write_text(at("a.toml"), toml.substr(cut + 1));
+  expect_same_bits(results_of("two-nodes --array byte" + changes, "by-set"),
+                   results_of("s.toml --array a.toml", "by-files"));
+  EXPECT_EQ(good("info s.toml --array a.toml --toml").out, toml);
+}
+
+TEST_F(CliInfo, PrintsTheExpandedArray) {
+  const std::string out = good("info two-nodes --array prescaled").out,
+                    toml = good("info two-nodes --array prescaled --toml").out;
+  EXPECT_THAT(out, ::testing::HasSubstr("Array file\n" + toml.substr(toml.find("# array\n") + 8)));
+}
+
+} // namespace
+} // namespace hopmesh::tests
