@@ -1,5 +1,6 @@
 #include "sim/networks/loaded_array.h"
 
+#include "firmware/registers.h"
 #include "sim/levels/bus_error.h"
 
 namespace hopmesh::networks {
@@ -7,7 +8,7 @@ namespace hopmesh::networks {
 LoadedArray::LoadedArray(levels::ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology)
     : port_(port), mesh_(mesh), memories_(port.bus(), topology), buffer_(4096) {}
 
-hm_relaxation LoadedArray::relax(CellNetwork network, double threshold, std::uint32_t max_sweeps) {
+spec::Relaxation LoadedArray::relax(CellNetwork network, double threshold, std::uint32_t max_sweeps) {
   if (!is_loaded())
     levels::check(hm_driver_open(&driver_, &port_.bus(), &mesh_, buffer_.data(),
                                  static_cast<std::uint32_t>(buffer_.size())));
@@ -15,7 +16,7 @@ hm_relaxation LoadedArray::relax(CellNetwork network, double threshold, std::uin
   hm_relaxation end;
   levels::check(hm_driver_relax(&driver_, &mesh_, &loaded, threshold, max_sweeps, &end));
   outputs_ = std::move(network.output);
-  return end;
+  return {end.sweeps, end.converged != 0, memories_.read(HM_REG_LARGEST_CHANGE), end.cycles};
 }
 
 void LoadedArray::put_outputs(const std::vector<double>& outputs) {

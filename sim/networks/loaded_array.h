@@ -19,7 +19,7 @@ class LoadedArray {
   LoadedArray(levels::ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology);
 
   /// Loads the network and relaxes it from its start. Throws as levels::check does, here and below.
-  hm_relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
+  spec::Relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
   bool is_loaded() const { return driver_.bus != nullptr; }
 
   // Of what is loaded:

@@ -14,7 +14,7 @@ class ReferenceLevel : public NetworkLevel {
       : network_(network), order_(spec::phases_of(network.topology(), array.schedule)), output_(array.output),
         V_(network.start()) {}
 
-  Rest relax(double threshold, std::uint32_t max_sweeps) override {
+  spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
     reference::Relaxation end =
         reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps, output_);
     V_ = std::move(end.V);
@@ -48,12 +48,12 @@ class ArrayLevel : public NetworkLevel {
   ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, levels::ArrayPort& port)
       : network_(network), array_(array), loaded_(port, network.firmware(), network.topology()) {}
 
-  Rest relax(double threshold, std::uint32_t max_sweeps) override {
-    const hm_relaxation end =
+  spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
+    const spec::Relaxation end =
         loaded_.relax({network_.rows(), values_of(network_.network().I), values_of(network_.start())},
                       threshold, max_sweeps);
     V_ = vector_of(loaded_.outputs());
-    return {end.sweeps, end.converged != 0, end.cycles, loaded_.clipped()};
+    return end;
   }
 
   void restart() override {
@@ -68,6 +68,7 @@ class ArrayLevel : public NetworkLevel {
   }
 
   const Vector& outputs() const override { return V_; }
+  std::uint32_t clipped() const override { return loaded_.clipped(); }
 
   std::optional<reference::Network> loaded() const override {
     if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)

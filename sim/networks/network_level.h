@@ -1,6 +1,7 @@
 // A level that relaxes a given network: the reference in double, or an array behind the firmware's driver.
 #pragma once
 
+#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/array_port.h"
 #include "sim/networks/given_network.h"
@@ -10,25 +11,20 @@
 
 namespace hopmesh::networks {
 
-/// How a relaxation ended.
-struct Rest {
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-  std::uint64_t cycles = 0;  ///< of the array; 0 at the reference
-  std::uint32_t clipped = 0; ///< weights and biases that did not fit their format
-};
-
 class NetworkLevel {
  public:
   virtual ~NetworkLevel() = default;
-  /// From the start until no output moves by more than `threshold` in a sweep, or so many sweeps. Throws
-  /// Stopped of motion.h where the user stops an array.
-  virtual Rest relax(double threshold, std::uint32_t max_sweeps) = 0;
+  /// From the start until no output moves by more than `threshold` in a sweep, or so many sweeps. The
+  /// reference has neither cycles nor codes: they are 0. Throws levels::Stopped where the user stops an
+  /// array.
+  virtual spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) = 0;
   /// Puts the start back.
   virtual void restart() = 0;
   /// Another sweep; the largest |change| of an output.
   virtual double sweep() = 0;
   virtual const reference::Vector& outputs() const = 0;
+  /// Weights and biases that did not fit the formats of an array.
+  virtual std::uint32_t clipped() const { return 0; }
   /// The network as it stands in an array's memories, in units of the one that was given; none where there
   /// are no memories, or rows were scaled one by one.
   virtual std::optional<reference::Network> loaded() const { return std::nullopt; }

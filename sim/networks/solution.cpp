@@ -23,6 +23,7 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const reference::Vector& V) {
 Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
   Solution solution;
   solution.rest = level.relax(options.threshold, options.max_sweeps);
+  solution.clipped = level.clipped();
   solution.V = level.outputs();
   solution.energy_at_start = reference::network_energy(network.network(), network.start());
   solution.energy = reference::network_energy(network.network(), solution.V);

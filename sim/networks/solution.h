@@ -14,7 +14,8 @@ struct SolveOptions {
 };
 
 struct Solution {
-  Rest rest;
+  spec::Relaxation rest;
+  std::uint32_t clipped = 0; ///< weights and biases that did not fit the formats of an array
   reference::Vector V;
   double energy_at_start = 0, energy = 0; ///< -1/2 V'WV - I'V of the network as given
   double kkt = 0;                         ///< how far a step of s_i / N_i can still move an output

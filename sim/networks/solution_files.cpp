@@ -27,8 +27,8 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
   if (s.rest.cycles > 0) text += fmt::format(", {} cycles", run::grouped(s.rest.cycles));
   text += fmt::format("\nEnergy {:.9g}, at the start {:.9g}; KKT residual {:.3g}\n", s.energy,
                       s.energy_at_start, s.kkt);
-  if (s.rest.clipped > 0)
-    text += fmt::format("{} weights and biases did not fit their format\n", run::grouped(s.rest.clipped));
+  if (s.clipped > 0)
+    text += fmt::format("{} weights and biases did not fit their format\n", run::grouped(s.clipped));
   if (!label.verdict.empty()) text += label.verdict + '\n';
   return text;
 }
@@ -40,7 +40,7 @@ void write_solution(const std::filesystem::path& folder, const SolveLabel& label
       {"network", label.network},   {"level", label.level},          {"rule", label.rule},
       {"schedule", label.schedule}, {"neurons", network.neurons()},  {"weights", network.weights()},
       {"sweeps", s.rest.sweeps},    {"converged", s.rest.converged}, {"limit_cycle", s.limit_cycle},
-      {"cycles", s.rest.cycles},    {"clipped", s.rest.clipped},     {"energy_at_start", s.energy_at_start},
+      {"cycles", s.rest.cycles},    {"clipped", s.clipped},          {"energy_at_start", s.energy_at_start},
       {"energy", s.energy},         {"kkt_residual", s.kkt},         {"verdict", label.verdict}};
   files::write_file(folder / "summary.json", summary.dump(2) + '\n');
 }
