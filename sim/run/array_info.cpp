@@ -34,8 +34,7 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
       {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
       {"output stage", std::string(name_of(array.output))},
       {"normaliser", normaliser_text(array)},
-      {"schedule",
-       fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
+      {"schedule", fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
       {"host bus", fmt::format("{} bits", array.bus_bits)},
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };
