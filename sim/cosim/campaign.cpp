@@ -123,8 +123,8 @@ struct BatchChild {
 
 class Parent {
  public:
-  Parent(const Ways& ways, const CampaignPlan& plan,
-         const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop)
+  Parent(const Ways& ways, const CampaignPlan& plan, const std::function<void(std::uint64_t)>& progress,
+         const std::atomic<bool>& stop)
       : ways_(ways), plan_(plan), progress_(progress), stop_(stop), next_(plan.first) {}
 
   CampaignResult run() {

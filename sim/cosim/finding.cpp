@@ -13,8 +13,7 @@ constexpr unsigned trial_seconds = 60;
 } // namespace
 
 bool differs_in_child(const Ways& ways, const ArrayJob& job) {
-  return !run::run_in_child([&] { return contest(ways, job).text.empty() ? 0 : 1; }, trial_seconds)
-              .good();
+  return !run::run_in_child([&] { return contest(ways, job).text.empty() ? 0 : 1; }, trial_seconds).good();
 }
 
 Ways involved(const Ways& ways, const Finding& finding) {

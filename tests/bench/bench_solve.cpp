@@ -2,8 +2,8 @@
 #include "firmware/driver.h"
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/device.h"
-#include "sim/networks/problems/problem.h"
 #include "sim/networks/given_network.h"
+#include "sim/networks/problems/problem.h"
 #include "tests/bench/grid_network.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // The simulation as a library: reads a shipped scene, changes one number, and moves its mesh in double
 // precision.
-#include "sim/scene/scene_file.h"
 #include "sim/levels/reference_motion.h"
+#include "sim/scene/scene_file.h"
 
 #include <cstdio>
 

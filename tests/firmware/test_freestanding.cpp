@@ -27,7 +27,8 @@ std::string trimmed(const std::string& text) {
 /// Lines of `nm OPTION` on the firmware's archive: name, value, type, class, size, line, section.
 std::vector<Symbol> symbols(const std::string& option) {
   std::vector<Symbol> found;
-  for (const std::string& line : lines_of(run_shell("nm -f sysv " + option + " " HOPMESH_FIRMWARE_LIBRARY).out)) {
+  for (const std::string& line :
+       lines_of(run_shell("nm -f sysv " + option + " " HOPMESH_FIRMWARE_LIBRARY).out)) {
     std::vector<std::string> columns;
     std::istringstream text(line);
     for (std::string column; std::getline(text, column, '|');) columns.push_back(trimmed(column));

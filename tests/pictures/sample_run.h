@@ -1,4 +1,5 @@
-// A run made from formulas, equal at every call: a 20 x 20 flag that waves, with the series a study would fill.
+// A run made from formulas, equal at every call: a 20 x 20 flag that waves, with the series a study would
+// fill.
 #pragma once
 
 #include "sim/pictures/run_view.h"

@@ -43,9 +43,7 @@ struct Log : run::StepSink {
 
 class Simulate : public ::testing::Test {
  protected:
-  run::RunResult run(std::uint64_t steps) {
-    return run::simulate(motion, steps, {&first, &second}, stop);
-  }
+  run::RunResult run(std::uint64_t steps) { return run::simulate(motion, steps, {&first, &second}, stop); }
   ToldMotion motion;
   Log first, second;
   std::atomic<bool> stop{false};

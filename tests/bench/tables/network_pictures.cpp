@@ -84,7 +84,8 @@ std::string drawn(const Curve& curve, std::size_t number) {
   const double y = top + 18 + 18 * static_cast<double>(number);
   return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='2'/>{}\n"
                      "<rect x='{}' y='{}' width='14' height='4' fill='{}'/><text x='{}' y='{}'>{}</text>\n",
-                     line, colour, dots, left + 16, y - 6, colour, left + 36, y, pictures::escaped(curve.name));
+                     line, colour, dots, left + 16, y - 6, colour, left + 36, y,
+                     pictures::escaped(curve.name));
 }
 
 std::string svg_of(const std::vector<Curve>& curves) {
