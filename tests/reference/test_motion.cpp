@@ -41,7 +41,7 @@ struct Hanging {
 TEST(ReferenceMotion, IsReadFromTheScene) {
   scene::Scene scene;
   scene.motion = {scene::Formulation::probe, 0.25, 10, 0.75};
-  scene.probe = {11, 12, 0.5, "all", "acceleration"};
+  scene.probe = {11, 12, 0.5, scene::EnergySprings::all, scene::ForceOn::acceleration};
   scene.relax = {1e-3, 77, 3};
   scene.force.gravity = {1, 2, 3};
   scene.force.wind = scene::Vector3{10, 20, 30};
