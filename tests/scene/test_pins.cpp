@@ -117,7 +117,7 @@ TEST(Pins, leftAndRightOfAFileMeshAreAlongXUnlessThatIsUp) {
 TEST(Pins, theBandIsAShareOfTheExtent) {
   EXPECT_THAT(held(tent(Axis::z, 0.499), {"top"}), ElementsAre(2, 3));
   EXPECT_THAT(held(tent(Axis::z, 0.5), {"top"}),
-              ElementsAre(2, 3, 4));                             // the peak at half the extent: just within
+              ElementsAre(2, 3, 4)); // the peak at half the extent: just within
   EXPECT_THAT(held(tent(Axis::z, 0.0), {"top"}), ElementsAre(2, 3)); // the highest always
 }
 
