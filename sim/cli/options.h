@@ -24,7 +24,7 @@ std::string shell_word(const std::string& word);
 /// out/NAME; a slash in a name must not lead elsewhere.
 std::string default_folder(std::string name);
 
-/// One line each on stderr, about what is no mistake.
+/// A line each on stderr, about what is no mistake.
 void tell(const std::vector<std::string>& notes);
 
 /// Reads and checks everything, the array's rules for this very mesh included, and tells which keys have no

@@ -78,9 +78,9 @@ std::vector<std::string> verb_names(const CLI::App& program) {
 
 std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& verb = verb_in(program);
-  const std::string left = about_words_left(program, verb);
+  std::string left = about_words_left(program, verb);
   if (!left.empty()) return left;
-  const std::string theirs = error.what();
+  std::string theirs = error.what();
   std::smatch part;
   for (const Translation& t : translations)
     if (std::regex_match(theirs, part, std::regex(t.theirs))) {

@@ -1,5 +1,5 @@
 // The keys of a file as a table of rows: what a key is called, where its value stands, what may stand there
-// and when it counts. One reader, one writer and the pages walk such tables, whatever the file describes.
+// and when it counts. A single reader, a single writer and the pages walk such tables, whatever the file describes.
 #pragma once
 
 #include "rtl_model/spec/array_keys.h"
@@ -98,7 +98,7 @@ void read_keys(KeyReader& reader, const Keys& keys);
 /// Refuses keys beside settings with which they never go.
 void refuse_beside(const TomlSource& source, const Keys& keys);
 
-/// One line for each key that was set, by an override or to something else than in `fresh`, and does not
+/// A line for each key that was set, by an override or to something else than in `fresh`, and does not
 /// count. `fresh` has the same keys with their defaults.
 std::vector<std::string> without_effect(const TomlSource& source, const Keys& keys, const Keys& fresh);
 

@@ -1,13 +1,15 @@
 // Writing by the table: TOML that reads back equal, to the last bit of every number.
 #include "sim/input/key_table.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace hopmesh::input {
 
 namespace {
 
-/// One value as TOML.
+/// A value as TOML.
 struct Writing {
   /// The shortest digits that read back as the same double, always with a point or an exponent.
   std::string operator()(const double* x) const {
@@ -86,9 +88,31 @@ std::string value_text(const Place& place) {
   return std::visit(Writing(), place);
 }
 
+namespace {
+
+std::string table_of(const Key& key) {
+  const auto dot = key.name.find('.');
+  return dot == std::string::npos ? "" : key.name.substr(0, dot);
+}
+
+// TOML refuses a table that is opened twice: rows of a table come together, wherever they stand.
+Keys by_table(const Keys& keys) {
+  std::vector<std::string> tables;
+  for (const Key& key : keys)
+    if (std::find(tables.begin(), tables.end(), table_of(key)) == tables.end())
+      tables.push_back(table_of(key));
+  Keys sorted;
+  for (const std::string& table : tables)
+    std::copy_if(keys.begin(), keys.end(), std::back_inserter(sorted),
+                 [&](const Key& key) { return table_of(key) == table; });
+  return sorted;
+}
+
+} // namespace
+
 std::string toml_text(const Keys& keys) {
   Lines lines;
-  for (const Key& key : keys) {
+  for (const Key& key : by_table(keys)) {
     const std::string value = value_text(key.place);
     const bool never = !key.when.holds && key.when.otherwise != Otherwise::told;
     if (!value.empty() && !never) lines.add(key.name, value);

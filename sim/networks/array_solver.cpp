@@ -9,7 +9,6 @@ namespace hopmesh::networks {
 
 namespace {
 
-namespace quadratic = solvers;
 using solvers::Vector;
 
 /// use(place in the weight memory, row, column) for every weight, neurons numbered over all nodes.

@@ -24,7 +24,8 @@ double right_of(const CellMap& map) {
 
 double bottom_of(const CellMap& map) {
   const std::size_t columns = columns_for(map.panels.size());
-  return top + double((map.panels.size() + columns - 1) / columns) * pitch_y;
+  const std::size_t rows = (map.panels.size() + columns - 1) / columns;
+  return top + double(rows) * pitch_y;
 }
 
 class Drawing : public SvgCanvas {
@@ -34,8 +35,9 @@ class Drawing : public SvgCanvas {
         cell_x_(side / double(map.xs.size())), cell_y_(side / double(map.ys.size())) {
     const std::size_t columns = columns_for(map.panels.size());
     for (std::size_t p = 0; p < map.panels.size(); ++p) {
-      const double x = left + double(p % columns) * pitch_x, y = top + double(p / columns) * pitch_y;
-      draw_panel(map.panels[p], {x, y, x + side, y + side}, p % columns == 0);
+      const std::size_t row = p / columns, column = p % columns;
+      const double x = left + double(column) * pitch_x, y = top + double(row) * pitch_y;
+      draw_panel(map.panels[p], {x, y, x + side, y + side}, column == 0);
     }
     name_lines(name_kinds(bottom_of(map) + 8) + 24);
   }

@@ -111,7 +111,6 @@ inline input::Keys spring_keys(MeshSpec& m) {
           .unset_is("a thousandth of the mean spring as built"),
   };
 }
-
 inline input::Keys node_keys(MeshSpec& m) {
   using namespace input;
   const Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};

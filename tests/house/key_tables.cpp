@@ -31,14 +31,14 @@ struct Allowed {
 
   std::string range() const { return number(key.range.low) + " to " + number(key.range.high); }
 
-  std::string operator()(const bool*) const { return "`true`, `false`"; }
-  std::string operator()(const int*) const { return range(); }
-  std::string operator()(const std::int64_t*) const { return range(); }
-  std::string operator()(const double*) const { return range(); }
-  std::string operator()(const std::optional<double>*) const { return range(); }
+  std::string operator()(bool*) const { return "`true`, `false`"; }
+  std::string operator()(int*) const { return range(); }
+  std::string operator()(std::int64_t*) const { return range(); }
+  std::string operator()(double*) const { return range(); }
+  std::string operator()(std::optional<double>*) const { return range(); }
   std::string operator()(const input::Worded&) const { return range(); }
-  std::string operator()(const input::Vector3*) const { return "each within ±1e15"; }
-  std::string operator()(const std::optional<input::Vector3>*) const { return "each within ±1e15"; }
+  std::string operator()(input::Vector3*) const { return "each within ±1e15"; }
+  std::string operator()(std::optional<input::Vector3>*) const { return "each within ±1e15"; }
   std::string operator()(const spec::Choice& choice) const {
     std::string text;
     for (std::size_t k = 0; k < choice.count; ++k)

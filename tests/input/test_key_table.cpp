@@ -90,7 +90,7 @@ TEST(ArrayTable, readsAndWritesRowsOfYourOwn) {
             }),
             "a.toml:2: array.depth: found 10, expected 1 to 9");
   EXPECT_THAT(complaint([&] { input::array_of(input::TomlSource::of_text(text, "a.toml"), "a.toml"); }),
-              HasSubstr("array.colour: found an unknown key"));
+              HasSubstr("array.depth: found an unknown key"));
 }
 
 } // namespace

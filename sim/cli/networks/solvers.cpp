@@ -15,7 +15,6 @@ namespace hopmesh::cli {
 
 namespace {
 
-namespace quadratic = solvers;
 
 struct SolversOptions {
   CommonOptions common;

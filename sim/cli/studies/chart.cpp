@@ -52,7 +52,7 @@ bool is_finished(const CsvTable& table, std::size_t row) {
 
 // Time of the array where every method that got to the end has one, else of this machine.
 std::string default_y(const CsvTable& table) {
-  const std::string array = heading_of(&PointRow::array_seconds), host = heading_of(&PointRow::host_seconds);
+  std::string array = heading_of(&PointRow::array_seconds), host = heading_of(&PointRow::host_seconds);
   for (std::size_t r = 0; r < table.rows.size(); ++r)
     if (is_finished(table, r) && table.number(r, array).value_or(0) == 0) return host;
   return has_numbers(table, array) ? array : host;

@@ -123,14 +123,14 @@ class CliResumeRefusal : public CliResume {
 };
 
 TEST_F(CliResumeRefusal, WhatContradictsTheCheckpoint) {
-  expect_refused("run two-nodes --resume r", "SCENE found --resume beside it");
+  expect_refused("run two-nodes --resume r", "SCENE: found --resume beside it");
   for (const char* flag : {"--array byte", "--set motion.steps=3", "--level systemc", "--out q", "--check",
                            "--no-check", "--wave w.vcd"})
     expect_refused(std::string("run --resume r ") + flag, "found --resume beside it");
   expect_refused("run --resume r --steps 2", "--steps: found 2, expected more than the ");
   expect_refused("run --resume r --checkpoint-every 0",
                  "--checkpoint-every: found 0, expected an integer from 1");
-  expect_refused("run", "SCENE is required");
+  expect_refused("run", "SCENE: found nothing");
 }
 
 TEST_F(CliResumeRefusal, WhatIsDamaged) {
