@@ -1,5 +1,6 @@
 // The keys of a file as a table of rows: what a key is called, where its value stands, what may stand there
-// and when it counts. A single reader, a single writer and the pages walk such tables, whatever the file describes.
+// and when it counts. A single reader, a single writer and the pages walk such tables, whatever the file
+// describes.
 #pragma once
 
 #include "rtl_model/spec/array_keys.h"
