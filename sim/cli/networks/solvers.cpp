@@ -15,7 +15,6 @@ namespace hopmesh::cli {
 
 namespace {
 
-
 struct SolversOptions {
   CommonOptions common;
   std::int64_t step = 0, max_sweeps = 20000;
