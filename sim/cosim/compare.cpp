@@ -1,7 +1,7 @@
 #include "sim/cosim/compare.h"
 
 #include "firmware/registers.h"
-#include "sim/run/counted.h"
+#include "sim/input/count_text.h"
 #include "sim/run/run_totals.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, C
     for (const ReadyLevel& c : ready) rows.push_back(c.motion->advance());
     result.steps += 1;
     return rows;
-  } catch (const levels::Diverged& why) {
+  } catch (const levels::LostMotion& why) {
     result.outcome = run::Outcome::diverged;
     result.sentence =
         fmt::format("{} diverged in step {}: {}.", ready[rows.size()].level->name, result.steps, why.what());
@@ -233,8 +233,8 @@ std::string text_of(const LevelReport& r) {
   using Error = levels::ReferenceError;
   const std::uint64_t cycles = sum_of(r, &levels::StepRow::cycles);
   std::string text =
-      fmt::format("{}: {}", r.level, run::counted(sum_of(r, &levels::StepRow::sweeps), "sweep"));
-  if (cycles > 0) text += fmt::format(", {} cycles", run::grouped(cycles)); // the reference has none
+      fmt::format("{}: {}", r.level, input::with_noun(sum_of(r, &levels::StepRow::sweeps), "sweep"));
+  if (cycles > 0) text += fmt::format(", {} cycles", input::grouped(cycles)); // the reference has none
   text += "\n";
   if (r.distances.empty()) return text;
   text += fmt::format("  each step against the reference's answer to the same step:\n"
@@ -255,13 +255,13 @@ std::string text_of(const LevelReport& r) {
 std::string text_of(const Comparison& c, const std::string& inputs, const spec::ArraySpec& array) {
   const auto end = inputs[0] == '\'' ? inputs.find("' ") : inputs.find(' '); // of the scene's word
   std::string text = fmt::format("{} on array {}, {}. {}\n", inputs.substr(0, end), array.name,
-                                 run::counted(c.steps, "step"), c.sentence);
+                                 input::with_noun(c.steps, "step"), c.sentence);
   for (const LevelReport& report : c.levels) text += text_of(report);
   if (c.difference) return text + text_of(*c.difference, inputs);
   if (c.pairs > 0)
     text += fmt::format("Fixed levels: equal after each of {} sweeps, every code; sweep and cycle counts of "
                         "every step too.\n",
-                        run::grouped(c.sweeps_compared));
+                        input::grouped(c.sweeps_compared));
   return text;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/cosim/lockstep.h"
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 
 namespace hopmesh::cosim {
 

@@ -98,7 +98,7 @@ class Shrinker {
   }
 
  private:
-  bool take(ArrayJob trial) {
+  bool accept(ArrayJob trial) {
     if (trials_left_ == 0 || spec::validate(trial.array, trial.topology.most_taps())) return false;
     trials_left_ -= 1;
     if (!differs_(trial)) return false;
@@ -109,7 +109,7 @@ class Shrinker {
   template <typename Change> bool try_change(Change change) {
     ArrayJob trial = job_;
     change(trial);
-    return take(std::move(trial));
+    return accept(std::move(trial));
   }
 
   bool fewer_sweeps() {
@@ -127,7 +127,7 @@ class Shrinker {
     bool any = false;
     for (std::uint32_t piece = static_cast<std::uint32_t>(job_.topology.cells()) / 2; piece > 0; piece /= 2)
       for (std::uint32_t first = 0; first + piece <= job_.topology.cells() && job_.topology.cells() > piece;)
-        if (take(without_cells(job_, first, piece)))
+        if (accept(without_cells(job_, first, piece)))
           any = true;
         else
           first += piece;
@@ -137,7 +137,7 @@ class Shrinker {
   bool fewer_components() {
     bool any = false;
     for (int p = 0; p < job_.topology.neurons_per_cell && job_.topology.neurons_per_cell > 1;)
-      if (take(without_component(job_, p)))
+      if (accept(without_component(job_, p)))
         any = true;
       else
         ++p;
@@ -148,7 +148,7 @@ class Shrinker {
     bool any = false;
     for (std::uint32_t a = 0; a < job_.topology.cells(); ++a)
       for (std::size_t k = job_.topology.first_link[a]; k < job_.topology.first_link[a + 1];)
-        if (job_.topology.link_to[k] > a && take(without_link(job_, a, job_.topology.link_to[k])))
+        if (job_.topology.link_to[k] > a && accept(without_link(job_, a, job_.topology.link_to[k])))
           any = true;
         else
           ++k;
@@ -182,7 +182,7 @@ class Shrinker {
         ArrayJob trial = job_;
         const spec::ArrayKey key = spec::array_keys(trial.array)[row];
         if (key.vectors_line > 0 && std::visit(Plain{key.plainest, overflow}, key.place))
-          any |= take(std::move(trial));
+          any |= accept(std::move(trial));
       }
     return any;
   }

@@ -2,11 +2,11 @@
 // Newton's method, with the scene's friction as the scene has it, a factor on v after each step.
 #pragma once
 
-#include "sim/levels/rival_motion.h"
+#include "sim/levels/rival_mover.h"
 
 namespace hopmesh::levels {
 
-class ExactStep : public Motion {
+class ExactStep : public Mover {
  public:
   /// Where a rival bears the formulation's name.
   static bool exists_for(const scene::Scene& scene);
@@ -21,7 +21,7 @@ class ExactStep : public Motion {
   }
 
  private:
-  RivalMotion rival_;
+  RivalMover rival_;
   const double friction_;
 };
 

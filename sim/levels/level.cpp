@@ -4,8 +4,8 @@
 #include "sim/input/input_error.h"
 #include "sim/levels/engine_port.h"
 #include "sim/levels/interrupt.h"
-#include "sim/levels/reference_motion.h"
-#include "sim/levels/rival_motion.h"
+#include "sim/levels/reference_mover.h"
+#include "sim/levels/rival_mover.h"
 #include "sim/levels/systemc_port.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 Level reference_row() {
   Level row{"reference", Kind::reference, "the algorithm in double, sweep by sweep"};
-  row.make_motion = [](const Prepared& p) {
-    return std::make_unique<ReferenceMotion>(p.inputs.scene, *p.mesh, p.inputs.array);
+  row.make_mover = [](const Prepared& p) {
+    return std::make_unique<ReferenceMover>(p.inputs.scene, *p.mesh, p.inputs.array);
   };
   return row;
 }
@@ -78,8 +78,8 @@ Level systemc_by_clock() {
 
 Level rival_row(const std::string& name) {
   Level row{name, Kind::rival, fmt::format("a rival in double; {}", rivals::about(name))};
-  row.make_motion = [name](const Prepared& p) {
-    return std::make_unique<RivalMotion>(name, p.inputs.scene, *p.mesh);
+  row.make_mover = [name](const Prepared& p) {
+    return std::make_unique<RivalMover>(name, p.inputs.scene, *p.mesh);
   };
   return row;
 }
@@ -161,13 +161,13 @@ ReadyLevel make_ready(const Level& level, const Prepared& p, bool check, const P
   ReadyLevel ready;
   ready.level = &level;
   if (!level.has_bus()) {
-    ready.motion = level.make_motion(p);
+    ready.mover = level.make_mover(p);
     return ready;
   }
   ready.port = level.make_port(p.inputs.array, p.mesh->topology(), request);
-  auto motion = std::make_unique<ArrayMotion>(p.inputs.scene, *p.mesh, p.inputs.array, *ready.port, check);
+  auto motion = std::make_unique<ArrayMover>(p.inputs.scene, *p.mesh, p.inputs.array, *ready.port, check);
   ready.array = motion.get();
-  ready.motion = std::move(motion);
+  ready.mover = std::move(motion);
   return ready;
 }
 

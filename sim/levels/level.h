@@ -1,11 +1,11 @@
 // The table of levels: whoever can answer a step of a scene, what it can do, and how it is made. A new level
 // is a port (array_port.h) and a row in level.cpp; nobody else compares names.
 //
-// What every level must do is no column: a run of any of them can be resumed (Motion::restore).
+// What every level must do is no column: a run of any of them can be resumed (Mover::restore).
 #pragma once
 
 #include "sim/engine/engine.h"
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 #include "sim/levels/prepared.h"
 #include "sim/levels/waves/wave_request.h"
 
@@ -53,7 +53,7 @@ struct Level {
   std::function<std::unique_ptr<ArrayPort>(const spec::ArraySpec&, const spec::Topology&, const PortRequest&)>
       make_port = nullptr;
   /// Makes its motion of a scene; empty where make_port is not: an array moves a scene by the firmware.
-  std::function<std::unique_ptr<Motion>(const Prepared&)> make_motion = nullptr;
+  std::function<std::unique_ptr<Mover>(const Prepared&)> make_mover = nullptr;
   std::vector<Variant> variants = {{}};
 
   bool can_wave = false;    ///< its registers can be written to a wave
@@ -88,8 +88,8 @@ std::vector<Way> ways_of(const std::vector<const Level*>& levels);
 struct ReadyLevel {
   const Level* level = nullptr;
   std::unique_ptr<ArrayPort> port;
-  std::unique_ptr<Motion> motion;
-  ArrayMotion* array = nullptr; ///< is `motion`
+  std::unique_ptr<Mover> mover;
+  ArrayMover* array = nullptr; ///< is `mover`
 };
 
 /// `check`: ask the reference beside every step, where the level can. Level and `prepared` must outlive it.

@@ -41,8 +41,8 @@ double alternation(const reference::Network& network, const reference::Order& or
   return first > 0 && away < first / 2 ? last / first : 0;
 }
 
-reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
-  reference::Motion motion = reference::motion_of(scene);
+reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
+  reference::StepParameters motion = reference::step_parameters(scene);
   motion.output = array.output;
   return motion;
 }

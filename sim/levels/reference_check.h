@@ -1,7 +1,7 @@
 // Beside every step of an array: the double reference's answer to the very same step.
 #pragma once
 
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/reference/reference.h"
 
 namespace hopmesh::levels {
@@ -9,7 +9,7 @@ namespace hopmesh::levels {
 /// The order in which an array's schedule fires, with the reference's numbering (over all nodes).
 reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
 /// A scene's motion as the output stage of an array makes it.
-reference::Motion motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
+reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
 
 /// Where a step starts from, as the reference has it; its V, numbered over all nodes, stays empty.
 reference::State state_of(const StepState& state);
@@ -41,7 +41,7 @@ class ReferenceCheck {
   double network_difference(const reference::Network& network, const hm_network& built) const;
 
   const BuiltMesh& mesh_;
-  reference::Motion motion_;
+  reference::StepParameters motion_;
   const reference::Order order_;
   reference::State state_;
 };

@@ -47,7 +47,7 @@ int SystemcPort::wait_for_irq() {
   delay_ = sc_core::SC_ZERO_TIME;
   while (!irq_.read()) {
     if (stop_) return HM_ERROR_STOPPED;
-    if (wave_) wave_->mind_the_disk();
+    if (wave_) wave_->close_when_disk_full();
     bool wave_changes = false;
     sc_core::sc_start(next_slice(began, cycles_before, wave_changes));
     if (wave_changes && !irq_.read()) wave_->change();

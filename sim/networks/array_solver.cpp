@@ -103,23 +103,23 @@ std::optional<solvers::Problem> StepArray::loaded() const {
   return solvers::reached(problem);
 }
 
-solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
-                          solvers::Limits limits, const std::atomic<bool>& stop) {
+solvers::SolverRun run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
+                             solvers::Limits limits, const std::atomic<bool>& stop) {
   limits.to_rest = true;
   const auto make = [&] { return std::make_unique<ArraySolver>(problem, array); };
   return solvers::run_solver("array", make, problem, answer, limits, stop);
 }
 
-std::string stall_text(const StepArray& array, const solvers::Course& course, const solvers::Problem& problem,
-                       const solvers::Answer& answer) {
-  if (course.sweeps == 0) return "";
+std::string stall_text(const StepArray& array, const solvers::SolverRun& solver_run,
+                       const solvers::Problem& problem, const solvers::Answer& answer) {
+  if (solver_run.sweeps == 0) return "";
   const double place = array.last_place();
-  const Vector off = (course.lowest - answer.V) / place;
+  const Vector off = (solver_run.lowest - answer.V) / place;
   const auto share = [&](const Vector& V) { return gap(problem, answer, V) / answer.start_gap; };
   std::string text = fmt::format(
       "array: lowest after {} of {} sweeps, at a gap of {:.2g}; there outputs are off by {:.3g} last places "
       "of {:.2g} at most, {:.3g} rms\n",
-      course.least_sweep, course.sweeps, course.least_gap, off.lpNorm<Eigen::Infinity>(), place,
+      solver_run.least_sweep, solver_run.sweeps, solver_run.least_gap, off.lpNorm<Eigen::Infinity>(), place,
       off.norm() / std::sqrt(static_cast<double>(off.size())));
   text +=
       fmt::format("  the answer in whole last places has a gap of {:.2g}", share(rounded(answer.V, place)));

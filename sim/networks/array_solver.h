@@ -33,12 +33,12 @@ class StepArray {
   std::uint64_t cycles_ = 0;
 };
 
-/// The course of an array, on until it stands still; `problem` is what reached() leaves of the array's.
-solvers::Course run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
-                          solvers::Limits limits, const std::atomic<bool>& stop);
+/// The run of an array, on until it stands still; `problem` is what reached() leaves of the array's.
+solvers::SolverRun run_array(StepArray& array, const solvers::Problem& problem, const solvers::Answer& answer,
+                             solvers::Limits limits, const std::atomic<bool>& stop);
 
 /// Where it came lowest, and what keeps it from the answer, in lines for people.
-std::string stall_text(const StepArray& array, const solvers::Course& course, const solvers::Problem& problem,
-                       const solvers::Answer& answer);
+std::string stall_text(const StepArray& array, const solvers::SolverRun& solver_run,
+                       const solvers::Problem& problem, const solvers::Answer& answer);
 
 } // namespace hopmesh::networks

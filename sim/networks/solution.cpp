@@ -1,7 +1,7 @@
 #include "sim/networks/solution.h"
 
 #include "sim/files/csv.h"
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 
 namespace hopmesh::networks {
 

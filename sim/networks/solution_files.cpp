@@ -1,7 +1,7 @@
 // A solution as people read it, and as V.mtx and summary.json.
 #include "sim/files/output_file.h"
+#include "sim/input/count_text.h"
 #include "sim/networks/solution.h"
-#include "sim/run/counted.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace hopmesh::networks {
 namespace {
 
 std::string ending_of(const Solution& s) {
-  const std::string sweeps = "after " + run::counted(s.rest.sweeps, "sweep");
+  const std::string sweeps = "after " + input::with_noun(s.rest.sweeps, "sweep");
   if (s.rest.converged) return "At rest " + sweeps;
   if (s.limit_cycle > 0) return fmt::format("Not at rest {}: limit cycle of {}", sweeps, s.limit_cycle);
   return "Not at rest " + sweeps;
@@ -20,15 +20,15 @@ std::string ending_of(const Solution& s) {
 } // namespace
 
 std::string text_of(const SolveLabel& label, const GivenNetwork& network, const Solution& s) {
-  std::string text =
-      fmt::format("{}: {}, {}; level {}, {}, {}\n", label.network, run::counted(network.neurons(), "neuron"),
-                  run::counted(network.weights(), "weight"), label.level, label.rule, label.schedule);
+  std::string text = fmt::format(
+      "{}: {}, {}; level {}, {}, {}\n", label.network, input::with_noun(network.neurons(), "neuron"),
+      input::with_noun(network.weights(), "weight"), label.level, label.rule, label.schedule);
   text += ending_of(s);
-  if (s.rest.cycles > 0) text += fmt::format(", {} cycles", run::grouped(s.rest.cycles));
+  if (s.rest.cycles > 0) text += fmt::format(", {} cycles", input::grouped(s.rest.cycles));
   text += fmt::format("\nEnergy {:.9g}, at the start {:.9g}; KKT residual {:.3g}\n", s.energy,
                       s.energy_at_start, s.kkt);
   if (s.clipped > 0)
-    text += fmt::format("{} weights and biases did not fit their format\n", run::grouped(s.clipped));
+    text += fmt::format("{} weights and biases did not fit their format\n", input::grouped(s.clipped));
   if (!label.verdict.empty()) text += label.verdict + '\n';
   return text;
 }

@@ -20,7 +20,7 @@ Problem problem_of(const reference::Network& network, const Vector& start, const
 
 reference::Increment increment_of(const levels::Prepared& p, const reference::State& state,
                                   double time_step) {
-  reference::Motion motion = reference::motion_of(p.inputs.scene);
+  reference::StepParameters motion = reference::step_parameters(p.inputs.scene);
   if (time_step > 0) motion.time_step = time_step;
   if (p.inputs.scene.force.image) {
     levels::ImageForce image(p.inputs.scene);
@@ -44,7 +44,7 @@ Problem still_problem(const reference::Increment& increment, const Vector& place
 
 } // namespace
 
-Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
+Problem step_problem(const levels::ReferenceMover& motion, const levels::StepState& before,
                      const levels::Prepared& p, const StepStart& how) {
   const reference::Step& step = motion.last_step();
   const reference::State state = levels::state_of(before);

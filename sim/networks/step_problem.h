@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/levels/prepared.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/networks/solvers/problem.h"
 
 namespace hopmesh::networks {
@@ -15,7 +15,7 @@ struct StepStart {
 
 /// Over all nodes, pinned ones among them. `motion` has just done the step, `before` is what it began from.
 /// Throws input::InputError where a scene of the probe is to start still.
-solvers::Problem step_problem(const levels::ReferenceMotion& motion, const levels::StepState& before,
+solvers::Problem step_problem(const levels::ReferenceMover& motion, const levels::StepState& before,
                               const levels::Prepared& prepared, const StepStart& start);
 
 } // namespace hopmesh::networks

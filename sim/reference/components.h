@@ -59,7 +59,7 @@ inline void set_output(const scene::Mesh& mesh, Vector& V, Eigen::Index node, co
 
 /// beta_i = beta dt^4 mean alpha of the node's springs (docs/method/theory.md, section 2); 0 for a node
 /// without springs.
-Vector node_beta(const scene::Mesh& mesh, const Motion& motion);
+Vector node_beta(const scene::Mesh& mesh, const StepParameters& motion);
 
 /// What one spring holds with its ends at p and q: alpha (|p - q| - L)^2 (paper eq. 4), or a constant pull's
 /// alpha |p - q|, smoothed.

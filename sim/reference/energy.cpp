@@ -13,7 +13,7 @@ double spring_energy(const scene::Mesh& mesh, const Vector& position) {
 
 // docs/method/theory.md, section 2: the weight of the unit-length term, in the units of the spring terms (h^2
 // alpha ~ dt^4).
-Vector node_beta(const scene::Mesh& mesh, const Motion& motion) {
+Vector node_beta(const scene::Mesh& mesh, const StepParameters& motion) {
   Vector sum = Vector::Zero(nodes_of(mesh)), count = Vector::Zero(nodes_of(mesh));
   for (const scene::Spring& spring : mesh.springs)
     for (const std::uint32_t node : spring.node) {
@@ -37,7 +37,8 @@ Vector displaced(const scene::Mesh& mesh, double h, const Vector& predicted, con
 
 // docs/method/theory.md, section 1; paper eq. 15. Pinned nodes have no neurons, so no unit-length term
 // either.
-double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V) {
+double energy(const scene::Mesh& mesh, const StepParameters& motion, const Vector& predicted,
+              const Vector& V) {
   const double h = motion.time_step * motion.time_step / 2;
   double sum = spring_energy(mesh, displaced(mesh, h, predicted, V));
   const Vector beta = node_beta(mesh, motion);

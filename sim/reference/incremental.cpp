@@ -80,7 +80,8 @@ double first_scale(const scene::Mesh& mesh, const Increment& increment, const St
 /// A step while it looks for its scale.
 class Relaxing {
  public:
-  Relaxing(const scene::Mesh& mesh, const Motion& motion, const Order& order, const Increment& increment)
+  Relaxing(const scene::Mesh& mesh, const StepParameters& motion, const Order& order,
+           const Increment& increment)
       : mesh_(mesh), motion_(motion), order_(order), increment_(increment),
         trusted_(trusted(mesh, increment)) {}
 
@@ -114,7 +115,7 @@ class Relaxing {
   }
 
   const scene::Mesh& mesh_;
-  const Motion& motion_;
+  const StepParameters& motion_;
   const Order& order_;
   const Increment& increment_;
   const double trusted_;
@@ -137,8 +138,8 @@ void stay_below(const scene::Mesh& mesh, const Increment& increment, Vector& cha
 }
 
 // BDF2's v is the derivative of the parabola through three positions.
-void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increment, const Vector& change,
-          State& state) {
+void move(const scene::Mesh& mesh, const StepParameters& motion, const Increment& increment,
+          const Vector& change, State& state) {
   const Vector x = state.position, v = state.velocity;
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node) {
     if (mesh.pinned[node]) continue;
@@ -155,7 +156,7 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Increment& increm
 }
 
 // Acceleration of a free node by what is no spring.
-Vector3 force_on(const scene::Mesh& mesh, const Motion& motion, Eigen::Index node) {
+Vector3 force_on(const scene::Mesh& mesh, const StepParameters& motion, Eigen::Index node) {
   Vector3 force = motion.force;
   if (motion.node_force.size() > 0) force += at(motion.node_force, node);
   if (mesh.planar) force.y() = 0;
@@ -163,7 +164,7 @@ Vector3 force_on(const scene::Mesh& mesh, const Motion& motion, Eigen::Index nod
 }
 
 // Backward Euler's; with `two_steps` BDF2's.
-Increment implicit_increment(const scene::Mesh& mesh, const Motion& motion, const State& state,
+Increment implicit_increment(const scene::Mesh& mesh, const StepParameters& motion, const State& state,
                              bool two_steps) {
   const double tau = two_steps ? motion.time_step * 2 / 3 : motion.time_step, slowed = 1 + motion.drag * tau;
   Increment result{state.position, tau * tau / 2, motion.mass * slowed / (tau * tau), {}, two_steps};
@@ -179,15 +180,16 @@ Increment implicit_increment(const scene::Mesh& mesh, const Motion& motion, cons
   return result;
 }
 
-Increment backward_euler_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+Increment backward_euler_increment(const scene::Mesh& mesh, const StepParameters& motion,
+                                   const State& state) {
   return implicit_increment(mesh, motion, state, false);
 }
 
-Increment bdf2_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+Increment bdf2_increment(const scene::Mesh& mesh, const StepParameters& motion, const State& state) {
   return implicit_increment(mesh, motion, state, state.step > 0);
 }
 
-Increment static_increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+Increment static_increment(const scene::Mesh& mesh, const StepParameters& motion, const State& state) {
   Increment result{state.position, 1, 0, Vector::Zero(3 * nodes_of(mesh))};
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     if (!mesh.pinned[node]) at(result.load, node) = motion.mass * force_on(mesh, motion, node);
@@ -196,7 +198,7 @@ Increment static_increment(const scene::Mesh& mesh, const Motion& motion, const 
 
 } // namespace
 
-Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+Increment increment(const scene::Mesh& mesh, const StepParameters& motion, const State& state) {
   return motion.formulation->increment(mesh, motion, state);
 }
 
@@ -240,12 +242,12 @@ Vector no_outputs(const scene::Mesh& mesh, const State&, double) {
   return Vector::Zero(components(mesh) * nodes_of(mesh));
 }
 
-Network network_about(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale,
+Network network_about(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double scale,
                       const Vector& V0) {
   return network(mesh, increment(mesh, motion, state), scale, V0);
 }
 
-Step advance_once(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
   const Increment about = increment(mesh, motion, state);
   Step step;
   step.predicted = about.predicted;

@@ -18,8 +18,8 @@ const Formulation* formulation_named(const std::string& name) {
 
 } // namespace
 
-Motion motion_of(const scene::Scene& scene) {
-  Motion motion;
+StepParameters step_parameters(const scene::Scene& scene) {
+  StepParameters motion;
   motion.time_step = scene.motion.time_step;
   motion.friction = scene.motion.friction;
   motion.gamma = scene.probe.gamma;
@@ -50,7 +50,7 @@ State initial_state(const scene::Mesh& mesh, const Formulation& formulation) {
   return state;
 }
 
-Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+Step advance(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
   Step step = motion.formulation->advance(mesh, motion, order, state);
   state.V = step.relaxation.V;
   ++state.step;

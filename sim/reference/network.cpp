@@ -18,7 +18,8 @@ Expansion expand_unit_length(double beta, const Vector3& V0) {
 } // namespace
 
 // The paper's T1 to T4 and I, corrected (docs/method/theory.md, sections 2 and 6).
-Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0) {
+Network network(const scene::Mesh& mesh, const StepParameters& motion, const Vector& predicted,
+                const Vector& V0) {
   const double h = motion.time_step * motion.time_step / 2;
   const Vector beta = node_beta(mesh, motion);
   Assembly assembly(mesh);

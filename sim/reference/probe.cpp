@@ -29,7 +29,7 @@ Vector directions(const scene::Mesh& mesh, const Vector& V) {
 // Delta E_i of every node (paper eq. 6): node i at C_i + h dahat_i and all others at C_j, minus everything at
 // x, over the springs of the node. For `all` springs the others' change from x to C, the same for every i, is
 // added: each spring of the node then counts from C instead of x.
-Vector energy_changes(const scene::Mesh& mesh, const Motion& motion, const Vector& x, const Vector& C,
+Vector energy_changes(const scene::Mesh& mesh, const StepParameters& motion, const Vector& x, const Vector& C,
                       const Vector& dahat) {
   const double h = motion.time_step * motion.time_step / 2;
   const bool all = motion.energy_of_all_springs;
@@ -48,7 +48,7 @@ Vector energy_changes(const scene::Mesh& mesh, const Motion& motion, const Vecto
 
 // Paper eqs. 5 and 7, friction and what a drag leaves of it, force: in this order, each line using what the
 // line before made.
-void move_node(const Motion& motion, const Vector3& kick, const Vector3& force, Eigen::Index node,
+void move_node(const StepParameters& motion, const Vector3& kick, const Vector3& force, Eigen::Index node,
                State& state) {
   const double dt = motion.time_step, h = dt * dt / 2, kept = motion.friction / (1 + motion.drag * dt);
   auto x = at(state.position, node), v = at(state.velocity, node), a = at(state.acceleration, node);
@@ -62,7 +62,7 @@ void move_node(const Motion& motion, const Vector3& kick, const Vector3& force, 
 }
 
 // All nodes at once: what drives them is computed from the old state before the first one moves.
-void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State& state) {
+void move(const scene::Mesh& mesh, const StepParameters& motion, const Step& step, State& state) {
   const Vector dahat = directions(mesh, step.relaxation.V);
   const Vector change = energy_changes(mesh, motion, state.position, step.predicted, dahat);
   const Vector3 force = moving_part(mesh, motion.force);
@@ -75,7 +75,7 @@ void move(const scene::Mesh& mesh, const Motion& motion, const Step& step, State
 
 // docs/method/theory.md, section 4 (probe). With more than one expansion the step reports the last one,
 // sweeps summed: from V0, its network comes to rest at relaxation.V.
-Step advance_once(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state) {
+Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
   Step step;
   step.predicted = predict(mesh, motion, state);
   step.relaxation.V = expansion_point(mesh, state);
@@ -94,7 +94,7 @@ Vector start(const scene::Mesh& mesh, const State& state, double) {
   return expansion_point(mesh, state);
 }
 
-Network network_about(const scene::Mesh& mesh, const Motion& motion, const State& state, double,
+Network network_about(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double,
                       const Vector& V0) {
   return network(mesh, motion, predict(mesh, motion, state), V0);
 }
@@ -102,7 +102,7 @@ Network network_about(const scene::Mesh& mesh, const Motion& motion, const State
 } // namespace
 
 // docs/method/theory.md, section 1: C_i = x_i + v_i dt + h memory a_i, and x_i where pinned.
-Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state) {
+Vector predict(const scene::Mesh& mesh, const StepParameters& motion, const State& state) {
   const double dt = motion.time_step, h = dt * dt / 2;
   Vector predicted = state.position;
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)

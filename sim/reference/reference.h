@@ -33,7 +33,7 @@ struct Relaxation {
 struct Formulation;
 extern const Formulation probe, backward_euler, bdf2, statics;
 
-struct Motion {
+struct StepParameters {
   const Formulation* formulation = &probe;
   spec::Output output = spec::Output::modified;
   double mass = 1, drag = 0; ///< kg of a node; 1/s
@@ -46,7 +46,7 @@ struct Motion {
 };
 
 /// Motion of a scene; force is gravity plus wind.
-Motion motion_of(const scene::Scene& scene);
+StepParameters step_parameters(const scene::Scene& scene);
 
 /// Positions, velocities, accelerations: [3 * nodes], node by node. In the incremental formulation the
 /// acceleration is what the springs added to the prediction, da = sigma V; in a static step, how far it went.
@@ -62,16 +62,18 @@ State initial_state(const scene::Mesh& mesh, const Formulation& formulation = pr
 // ---- probe (docs/method/theory.md, sections 1, 2, 4)
 
 /// C of docs/method/theory.md, section 1: [3 * nodes].
-Vector predict(const scene::Mesh& mesh, const Motion& motion, const State& state);
+Vector predict(const scene::Mesh& mesh, const StepParameters& motion, const State& state);
 /// V0 of a step: the previous rest state scaled to unit length node by node, (0, 0, -1) where it is shorter
 /// than 1e-9.
 Vector expansion_point(const scene::Mesh& mesh, const State& state);
 /// E(V) of docs/method/theory.md, section 1 (paper eq. 15).
-double energy(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V);
+double energy(const scene::Mesh& mesh, const StepParameters& motion, const Vector& predicted,
+              const Vector& V);
 /// What all springs hold: sum of alpha (|x_i - x_j| - L)^2, or of their constant pull's work.
 double spring_energy(const scene::Mesh& mesh, const Vector& position);
 /// W = -H, I = H V0 - g of docs/method/theory.md, section 2, about V0.
-Network network(const scene::Mesh& mesh, const Motion& motion, const Vector& predicted, const Vector& V0);
+Network network(const scene::Mesh& mesh, const StepParameters& motion, const Vector& predicted,
+                const Vector& V0);
 
 // ---- incremental potential (docs/method/theory.md, section 4)
 
@@ -83,7 +85,7 @@ struct Increment {
   Vector load = {};       ///< static step: newtons on every free node, [3 * nodes]; else empty, C knows them
   bool two_steps = false; ///< BDF2, with a step behind it
 };
-Increment increment(const scene::Mesh& mesh, const Motion& motion, const State& state);
+Increment increment(const scene::Mesh& mesh, const StepParameters& motion, const State& state);
 /// Phi(V) at outputs that stand for da = scale V; less the work of the load in a static step.
 double energy(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V);
 /// Its second-order expansion about V0, with compressed springs counted convex: W is negative semi-definite.
@@ -117,19 +119,19 @@ struct Formulation {
   std::string_view name; ///< in scene files
   bool looks_back;       ///< previous_position and previous_velocity are kept for it
   /// What a step minimises, trying scales until one fits; null in the probe.
-  Increment (*increment)(const scene::Mesh& mesh, const Motion& motion, const State& state);
+  Increment (*increment)(const scene::Mesh& mesh, const StepParameters& motion, const State& state);
   /// V0 of a step's first expansion.
   Vector (*start)(const scene::Mesh& mesh, const State& state, double scale);
   /// What a step from this state relaxes about V0.
-  Network (*network)(const scene::Mesh& mesh, const Motion& motion, const State& state, double scale,
+  Network (*network)(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double scale,
                      const Vector& V0);
   /// A step, but for the state's V and count of steps.
-  Step (*advance)(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+  Step (*advance)(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state);
 };
 
 inline constexpr const Formulation* formulations[] = {&probe, &backward_euler, &bdf2, &statics};
 
 /// A whole step of docs/method/theory.md, section 4.
-Step advance(const scene::Mesh& mesh, const Motion& motion, const Order& order, State& state);
+Step advance(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state);
 
 } // namespace hopmesh::reference

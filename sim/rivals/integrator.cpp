@@ -63,8 +63,8 @@ void Method::go_on_from(const State& now, const State*) {
 }
 
 void Method::diverge(const std::string& how) const {
-  throw Diverged(name_ + " diverged in step " + std::to_string(counters_.steps) + " with a time step of " +
-                 std::to_string(time_step_) + " s: " + how + ".");
+  throw LostMotion(name_ + " diverged in step " + std::to_string(counters_.steps) + " with a time step of " +
+                   std::to_string(time_step_) + " s: " + how + ".");
 }
 
 const std::vector<std::string>& names() {

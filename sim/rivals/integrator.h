@@ -22,7 +22,7 @@ struct Counters {
 };
 
 /// A method that lost the motion, told in one sentence; its state is then good for nothing.
-class Diverged : public std::runtime_error {
+class LostMotion : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -33,7 +33,7 @@ class Method {
   Method(const Method&) = delete;
   Method& operator=(const Method&) = delete;
 
-  void advance(); ///< one time step; throws Diverged
+  void advance(); ///< one time step; throws LostMotion
   virtual void start_from(const State& state);
   /// The state a step before, for methods that look back two (BDF2, once it has done one); else null.
   virtual const State* before() const { return nullptr; }

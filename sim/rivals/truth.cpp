@@ -29,7 +29,7 @@ int right_hand_side(realtype, N_Vector y, N_Vector slope, void* data) {
 
 void expect_success(int flag, const char* what) {
   if (flag < 0)
-    throw Diverged(std::string("SUNDIALS gave up in ") + what + ": " + CVodeGetReturnFlagName(flag) + ".");
+    throw LostMotion(std::string("SUNDIALS gave up in ") + what + ": " + CVodeGetReturnFlagName(flag) + ".");
 }
 
 // CVODE prints its own warnings; what it returns says the same, once.
@@ -77,7 +77,7 @@ struct Walk::Solver {
   void walk(double target, int task) {
     expect_success(CVode(cvode, target, y, &time, task), "its walk");
     if (!std::isfinite(N_VGetArrayPointer(y)[0]))
-      throw Diverged("SUNDIALS diverged: its positions are no numbers.");
+      throw LostMotion("SUNDIALS diverged: its positions are no numbers.");
   }
 };
 

@@ -24,7 +24,7 @@ class Walk {
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
 
-  void to(double time);     ///< throws Diverged (integrator.h) where CVODE gives up
+  void to(double time);     ///< throws LostMotion (integrator.h) where CVODE gives up
   void one_internal_step(); ///< as far as CVODE wants to go in one
   Vector positions() const; ///< [3 * nodes] node by node
   std::uint64_t force_passes() const;

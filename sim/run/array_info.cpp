@@ -2,18 +2,14 @@
 
 #include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/schedule.h"
+#include "sim/input/count_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::run {
 
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
-    text.insert(static_cast<std::size_t>(at), ",");
-  return text;
-}
+using input::grouped;
 
 namespace {
 

@@ -28,7 +28,4 @@ std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySp
 /// The tables as aligned text.
 std::string text_of(const std::vector<FigureTable>& tables);
 
-/// 12345678 -> "12,345,678".
-std::string grouped(std::uint64_t number);
-
 } // namespace hopmesh::run

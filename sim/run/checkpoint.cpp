@@ -80,11 +80,11 @@ class Reading {
     c_.check = number("check") != 0;
     c_.every = number("every");
     c_.asked = number("asked");
-    take("wall_seconds", text_of("wall_seconds"), c_.wall_seconds);
+    read_number("wall_seconds", text_of("wall_seconds"), c_.wall_seconds);
     c_.scene = texts("scene");
     c_.array = texts("array");
-    take("mesh", text_of("mesh"), c_.mesh, 16);
-    if (lines_.next_is("image")) take("image", text_of("image"), c_.image.emplace(), 16);
+    read_number("mesh", text_of("mesh"), c_.mesh, 16);
+    if (lines_.next_is("image")) read_number("image", text_of("image"), c_.image.emplace(), 16);
     while (lines_.next_is("range")) range();
     while (lines_.next_is("stream")) stream();
     c_.state.step = number("steps");
@@ -113,7 +113,7 @@ class Reading {
   }
 
   template <class Number, class... Base>
-  void take(const std::string& key, std::string_view text, Number& value, Base... base) const {
+  void read_number(const std::string& key, std::string_view text, Number& value, Base... base) const {
     if (!input::parse_number(text, value, base...))
       throw lines_.error(key, input::in_quotes(text), "a number");
   }
@@ -140,8 +140,8 @@ class Reading {
     std::string_view text = lines_.value("range");
     levels::SignalRange& r = c_.ranges.emplace_back();
     r.signal = first_word(text);
-    take("range", first_word(text), r.least);
-    take("range", text, r.largest);
+    read_number("range", first_word(text), r.least);
+    read_number("range", text, r.largest);
   }
 
   void stream() {
@@ -149,8 +149,8 @@ class Reading {
     NamedMark& s = c_.streams.emplace_back();
     s.name = first_word(text);
     c_.line[s.name] = lines_.line();
-    take(s.name, first_word(text), s.mark.bytes);
-    take(s.name, text, s.mark.check, 16);
+    read_number(s.name, first_word(text), s.mark.bytes);
+    read_number(s.name, text, s.mark.check, 16);
   }
 
   void state() {
@@ -161,8 +161,8 @@ class Reading {
       std::uint64_t count = 0;
       const std::string line = text_of(parts[k].first);
       std::string_view text = line;
-      take(parts[k].first, first_word(text), count);
-      take(parts[k].first, text, checks[k], 16);
+      read_number(parts[k].first, first_word(text), count);
+      read_number(parts[k].first, text, checks[k], 16);
       if (count > lines_.rest().size())
         throw lines_.error(parts[k].first, std::to_string(count) + " values", "as many as the file can hold");
       parts[k].second->resize(count);

@@ -4,7 +4,7 @@
 
 #include "sim/files/grey_picture.h"
 #include "sim/files/stream_rest.h"
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/scene/scene_file.h"
 
 #include <map>

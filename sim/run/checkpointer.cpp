@@ -10,12 +10,12 @@ Checkpointer::Checkpointer(RunFiles& files, std::uint64_t every, double seconds,
     : files_(files), every_(every), seconds_(seconds), began_(Clock::now()), safe_(std::move(safe)) {}
 
 // A step that ends the run as diverged is none to go on from: a resumed run comes to it again.
-void Checkpointer::step(const levels::StepRow& row, const levels::Motion& motion) {
+void Checkpointer::step(const levels::StepRow& row, const levels::Mover& motion) {
   const bool due = every_ > 0 && (row.step + 1) % every_ == 0;
   if (due && row.max_stretch < most_stretch) save(motion);
 }
 
-void Checkpointer::save(const levels::Motion& motion) {
+void Checkpointer::save(const levels::Mover& motion) {
   const RunFacts& facts = files_.facts();
   Checkpoint c;
   c.program = this_program();

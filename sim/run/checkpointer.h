@@ -17,10 +17,10 @@ class Checkpointer : public StepSink {
   /// sinks.
   Checkpointer(RunFiles& files, std::uint64_t every, double seconds, Safe safe);
 
-  void step(const levels::StepRow& row, const levels::Motion& motion) override;
+  void step(const levels::StepRow& row, const levels::Mover& motion) override;
   /// The steps that the motion has done are safe once this returns. Throws record::WriteError; then those of
   /// the checkpoint before still are.
-  void save(const levels::Motion& motion);
+  void save(const levels::Mover& motion);
 
  private:
   RunFiles& files_;

@@ -14,7 +14,7 @@ Progress::~Progress() {
   if (shown_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::step(const levels::StepRow& row, const levels::Motion&) {
+void Progress::step(const levels::StepRow& row, const levels::Mover&) {
   step(row);
 }
 

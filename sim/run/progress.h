@@ -15,7 +15,7 @@ class Progress : public StepSink {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void step(const levels::StepRow& row, const levels::Motion& motion) override;
+  void step(const levels::StepRow& row, const levels::Mover& motion) override;
   void step(const levels::StepRow& row);
   /// A line on stderr, terminal or not; the bar gives way.
   void say(const std::string& line);

@@ -44,7 +44,7 @@ void add_totals(Json& json, levels::Subject subject, const StepRows& rows) {
 } // namespace
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
-                   const levels::Motion& motion)
+                   const levels::Mover& motion)
     : folder_(ready(folder, facts, mesh, 0)), facts_(facts), mesh_(mesh),
       mesh_hash_(run::mesh_hash(mesh.mesh())), image_(image_of(facts.inputs.scene)), lock_(folder),
       positions_(folder / "positions.npy", place_shape()), table_(folder / "steps.csv", step_header()) {
@@ -67,7 +67,7 @@ std::optional<std::uint64_t> RunFiles::image_hash() const {
   return image_ ? std::optional(picture_hash(*image_)) : std::nullopt;
 }
 
-void RunFiles::step(const levels::StepRow& row, const levels::Motion& motion) {
+void RunFiles::step(const levels::StepRow& row, const levels::Mover& motion) {
   positions_.append(motion.positions());
   if (outputs_) outputs_->append(motion.outputs_raw());
   write_row(table_, row);
@@ -79,7 +79,7 @@ std::vector<NamedMark> RunFiles::sync() {
   return marks;
 }
 
-void RunFiles::finish(const RunResult& result, const levels::Motion& motion) {
+void RunFiles::finish(const RunResult& result, const levels::Mover& motion) {
   positions_.commit();
   if (outputs_)
     outputs_->commit();
@@ -108,7 +108,7 @@ void RunFiles::finish(const RunResult& result, const levels::Motion& motion) {
 }
 
 // Springs as they were and as they came to lie, over the picture that pulled them.
-void RunFiles::overlay(const levels::Motion& motion) const {
+void RunFiles::overlay(const levels::Mover& motion) const {
   const scene::Scene& scene = facts_.inputs.scene;
   std::vector<pictures::OverlayLine> start, end;
   for (const scene::Spring& s : mesh_.mesh().springs) {
@@ -127,7 +127,7 @@ void RunFiles::discard(const std::string& name) const {
   for (const char* part : {".part", ""}) std::filesystem::remove(folder_ / (name + part), none);
 }
 
-std::string RunFiles::statistics(const RunResult& result, const levels::Motion& motion) const {
+std::string RunFiles::statistics(const RunResult& result, const levels::Mover& motion) const {
   const StepRows& rows = result.rows;
   const double s = result.wall_seconds;
   const std::uint64_t updates = neuron_updates(rows, mesh_);

@@ -17,17 +17,17 @@ class RunFiles : public StepSink {
   /// Makes the folder and makes sure, before any work, that the results can be written: throws
   /// record::WriteError.
   RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
-           const levels::Motion& motion);
+           const levels::Mover& motion);
   /// Goes on with what a killed or stopped run left there.
   RunFiles(const std::filesystem::path& folder, const RunFacts& facts, const levels::BuiltMesh& mesh,
            RunStreams streams);
 
-  void step(const levels::StepRow& row, const levels::Motion& motion) override;
+  void step(const levels::StepRow& row, const levels::Mover& motion) override;
   /// All steps so far are on the disk; how far that is.
   std::vector<NamedMark> sync();
   /// Gives the streams their names and adds stats.json, manifest.json, mesh.glb, picture.svg, report.html
   /// and, where an image pulls, overlay.svg. A checkpoint stays only where there is something to go on with.
-  void finish(const RunResult& result, const levels::Motion& motion);
+  void finish(const RunResult& result, const levels::Mover& motion);
 
   const std::filesystem::path& folder() const { return folder_; }
   const RunFacts& facts() const { return facts_; }
@@ -37,9 +37,9 @@ class RunFiles : public StepSink {
   std::optional<std::uint64_t> image_hash() const;
 
  private:
-  void overlay(const levels::Motion& motion) const;
+  void overlay(const levels::Mover& motion) const;
   void discard(const std::string& name) const;
-  std::string statistics(const RunResult& result, const levels::Motion& motion) const;
+  std::string statistics(const RunResult& result, const levels::Mover& motion) const;
   std::string manifest(const RunResult& result) const;
 
   std::vector<std::size_t> place_shape() const { return {mesh_.nodes(), 3}; }

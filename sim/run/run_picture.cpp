@@ -1,6 +1,7 @@
 #include "sim/run/run_picture.h"
 
 #include "sim/files/npy.h"
+#include "sim/input/count_text.h"
 #include "sim/run/array_info.h"
 
 #include <algorithm>
@@ -69,7 +70,7 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
   FigureTable table{"Run", {}};
   auto& lines = table.second;
   lines.push_back({"level", facts.level->name});
-  lines.push_back({"steps", grouped(rows.size())});
+  lines.push_back({"steps", input::grouped(rows.size())});
   lines.push_back({"wall time", fmt::format("{:.2f} s", seconds)});
   lines.push_back({"steps/s", fmt::format("{:.1f}", rate(rows.size()))});
   if (is_shown(Subject::relaxation, facts, rows)) {
@@ -79,7 +80,8 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
   if (is_shown(Subject::clock, facts, rows)) {
     const std::uint64_t array = sum(&levels::StepRow::cycles), bus = sum(&levels::StepRow::bus_cycles);
     const double mhz = facts.inputs.array.clock_mhz, hardware = static_cast<double>(array + bus) / mhz / 1e6;
-    lines.push_back({"simulated cycles", grouped(array) + " in the array, " + grouped(bus) + " on the bus"});
+    lines.push_back({"simulated cycles",
+                     input::grouped(array) + " in the array, " + input::grouped(bus) + " on the bus"});
     lines.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(array))});
     lines.push_back({"time on hardware", fmt::format("{:.3g} s at {} MHz", hardware, mhz)});
     add_totals(Subject::clock, rows, lines);

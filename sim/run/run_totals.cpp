@@ -1,5 +1,6 @@
 #include "sim/run/run_totals.h"
 
+#include "sim/input/count_text.h"
 #include "sim/run/array_info.h"
 
 #include <algorithm>
@@ -84,7 +85,8 @@ std::uint64_t count_of(const StepRows& rows, const levels::StepFigure& figure, S
 
 std::string RunTotal::text() const {
   const double shown = total->factor * value;
-  if (is_count) return fmt::format(fmt::runtime(total->format), grouped(static_cast<std::uint64_t>(shown)));
+  if (is_count)
+    return fmt::format(fmt::runtime(total->format), input::grouped(static_cast<std::uint64_t>(shown)));
   return fmt::format(fmt::runtime(total->format), shown);
 }
 

@@ -12,21 +12,22 @@ std::string all_done(std::uint64_t steps) {
   return steps == 1 ? "The one step is done." : fmt::format("All {} steps done.", steps);
 }
 
-std::string kept(std::uint64_t before) {
+std::string saved_steps_text(std::uint64_t before) {
   if (before == 0) return "No step was done before it.";
   return before == 1 ? "The one step before it is kept."
                      : fmt::format("The {} steps before it are kept.", before);
 }
 
 // A step; true while the run goes on.
-bool one_step(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+bool one_step(levels::Mover& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
               RunResult& result) {
   const std::uint64_t step = result.rows.size();
   try {
     result.rows.push_back(motion.advance());
-  } catch (const levels::Diverged& why) {
+  } catch (const levels::LostMotion& why) {
     result.outcome = Outcome::diverged;
-    result.sentence = fmt::format("The motion diverged in step {}: {}. {}", step, why.what(), kept(step));
+    result.sentence =
+        fmt::format("The motion diverged in step {}: {}. {}", step, why.what(), saved_steps_text(step));
     return false;
   } catch (const levels::Stopped&) {
     result.outcome = Outcome::interrupted;
@@ -44,7 +45,7 @@ bool one_step(levels::Motion& motion, std::uint64_t steps, const std::vector<Ste
 
 } // namespace
 
-RunResult simulate(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
                    const std::atomic<bool>& stop, RunResult earlier) {
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();

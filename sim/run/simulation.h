@@ -1,7 +1,7 @@
 // The time-step loop: advance, record, watch, until done, diverged or interrupted.
 #pragma once
 
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/run/outcome.h"
 
 #include <atomic>
@@ -22,12 +22,12 @@ struct RunResult {
 class StepSink {
  public:
   virtual ~StepSink() = default;
-  virtual void step(const levels::StepRow& row, const levels::Motion& motion) = 0;
+  virtual void step(const levels::StepRow& row, const levels::Mover& motion) = 0;
 };
 
 /// Advances `motion` until `steps` are done, those of `earlier` among them (their rows, their time). Sinks
 /// see each new step in turn; `stop` is looked at between steps.
-RunResult simulate(levels::Motion& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
+RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
                    const std::atomic<bool>& stop, RunResult earlier = {});
 
 } // namespace hopmesh::run

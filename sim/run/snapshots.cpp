@@ -19,7 +19,7 @@ Snapshots::Snapshots(const std::vector<double>& times, double time_step) : at(ti
   for (double time : times) wanted_.push_back(step_of_time(time, time_step));
 }
 
-void Snapshots::step(const levels::StepRow& row, const levels::Motion& motion) {
+void Snapshots::step(const levels::StepRow& row, const levels::Mover& motion) {
   for (std::size_t k = 0; k < wanted_.size(); ++k)
     if (row.step + 1 == wanted_[k]) at[k] = motion.positions();
 }

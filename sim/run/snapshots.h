@@ -17,7 +17,7 @@ double rms_distance(const Positions& a, const Positions& b);
 class Snapshots : public StepSink {
  public:
   Snapshots(const std::vector<double>& times, double time_step);
-  void step(const levels::StepRow& row, const levels::Motion& motion) override;
+  void step(const levels::StepRow& row, const levels::Mover& motion) override;
 
   std::vector<Positions> at; ///< one a time; empty where the motion did not come so far
 

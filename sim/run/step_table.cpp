@@ -32,12 +32,12 @@ class Cells {
   bool empty() const { return rest_.empty() || rest_.front() == ','; }
 
   template <class Number, class... Base>
-  void take(Number& value, const char* expected = "a number", Base... base) {
+  void read_cell(Number& value, const char* expected = "a number", Base... base) {
     const std::string_view cell = next();
     const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value, base...);
     expect(failure == std::errc() && stop == cell.data() + cell.size(), cell, expected);
   }
-  void take(bool& value) {
+  void read_cell(bool& value) {
     const std::string_view cell = next();
     expect(cell == "0" || cell == "1", cell, "0 or 1");
     value = cell == "1";
@@ -69,11 +69,13 @@ struct Read {
   Cells& cells;
   levels::StepRow& row;
 
-  template <class Number> void operator()(Number levels::StepRow::*member) const { cells.take(row.*member); }
-  void operator()(levels::HashFigure hash) const { cells.take(row.*hash.member, "a hash", 16); }
+  template <class Number> void operator()(Number levels::StepRow::*member) const {
+    cells.read_cell(row.*member);
+  }
+  void operator()(levels::HashFigure hash) const { cells.read_cell(row.*hash.member, "a hash", 16); }
   void operator()(double levels::ReferenceError::*member) const {
     if (row.error)
-      cells.take((*row.error).*member);
+      cells.read_cell((*row.error).*member);
     else
       cells.pass_empty();
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/files/csv.h"
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 
 namespace hopmesh::run {
 

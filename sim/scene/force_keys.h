@@ -23,7 +23,7 @@ struct ForceSpec {
 };
 
 /// What a step leaves of a velocity that nothing drives.
-inline double kept_speed(const MotionSpec& m, const ForceSpec& f) {
+inline double kept_speed(const MotionKeys& m, const ForceSpec& f) {
   return m.friction / (1 + f.drag * m.time_step);
 }
 

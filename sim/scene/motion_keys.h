@@ -9,7 +9,7 @@ namespace hopmesh::scene {
 enum class Formulation : std::uint8_t { probe, incremental };
 inline constexpr std::array<std::string_view, 2> formulation_names{"probe", "incremental"};
 
-struct MotionSpec {
+struct MotionKeys {
   Formulation formulation = Formulation::probe;
   double time_step = 0.05;
   std::int64_t steps = 400;
@@ -48,13 +48,13 @@ struct RelaxSpec {
 };
 
 /// Whether anything has a speed; in the static rule nothing does.
-inline input::When moving(const MotionSpec& m, const IncrementalSpec& i) {
+inline input::When moving(const MotionKeys& m, const IncrementalSpec& i) {
   return {m.formulation == Formulation::probe || i.rule != Rule::statics,
           "a motion through time, not incremental.rule = \"static\""};
 }
 
 /// In the order of scene files.
-inline input::Keys motion_keys(MotionSpec& m, ProbeSpec& p, IncrementalSpec& i, RelaxSpec& r) {
+inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, RelaxSpec& r) {
   using namespace input;
   const When probe{m.formulation == Formulation::probe, "motion.formulation = \"probe\""};
   const When incremental{m.formulation == Formulation::incremental, "motion.formulation = \"incremental\""};

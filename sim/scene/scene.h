@@ -15,7 +15,7 @@ struct Scene {
   std::string source;               ///< the file it was read from
   std::map<std::string, int> lines; ///< where the source sets each key, for messages; 0: an override did
   MeshSpec mesh;
-  MotionSpec motion;
+  MotionKeys motion;
   ProbeSpec probe;
   IncrementalSpec incremental;
   RelaxSpec relax;

@@ -1,7 +1,7 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/run/array_info.h"
 #include "sim/run/run_totals.h"
 #include "sim/scene/frequency.h"
@@ -52,7 +52,7 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
 void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                        const std::vector<double>& times, const run::Snapshots& ours,
                        const run::Positions& last, const std::atomic<bool>& stop, PointRow& row) {
-  levels::ReferenceMotion motion(inputs.scene, mesh, inputs.array);
+  levels::ReferenceMover motion(inputs.scene, mesh, inputs.array);
   run::Snapshots theirs(times, inputs.scene.motion.time_step);
   const run::RunResult result = run::simulate(motion, row.steps, {&theirs}, stop);
   if (result.rows.size() == row.steps) row.position_error = run::rms_distance(last, motion.positions());

@@ -20,7 +20,7 @@ struct Truth {
 struct Methods {
   std::vector<std::string> names;
   /// Asks the reference beside every step, where the method can.
-  std::function<std::shared_ptr<levels::Motion>(const std::string& method, const scene::Inputs& inputs)> make;
+  std::function<std::shared_ptr<levels::Mover>(const std::string& method, const scene::Inputs& inputs)> make;
   std::function<Truth(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                       const std::vector<double>& times)>
       truth;

@@ -30,9 +30,9 @@ int SizeTrials::fly(const Setting& setting) const {
   p.mesh = std::make_unique<levels::BuiltMesh>(p.inputs.scene);
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
   const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
-  const run::RunResult result = run::simulate(*level.motion, steps, {}, levels::stop_requested);
+  const run::RunResult result = run::simulate(*level.mover, steps, {}, levels::stop_requested);
   if (levels::stop_requested) return run::child_stopped;
-  folder_.keep(setting, row_of(result, run::rms_distance(level.motion->positions(), target_)));
+  folder_.save(setting, row_of(result, run::rms_distance(level.mover->positions(), target_)));
   return run::child_done;
 }
 
@@ -44,7 +44,7 @@ std::vector<TrialRow> SizeTrials::rows(const std::vector<Setting>& settings) {
       missing, workers_, [&](std::size_t k) { return fly(settings[k]); },
       [&](std::size_t k, const run::ChildEnd& end) {
         const bool asked = levels::stop_requested || end.exit_code == run::child_stopped;
-        if (!asked && !folder_.find(settings[k])) folder_.keep(settings[k], {});
+        if (!asked && !folder_.find(settings[k])) folder_.save(settings[k], {});
         progress_.count(++flown_);
       },
       levels::stop_requested);

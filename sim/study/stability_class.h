@@ -1,7 +1,7 @@
 // What became of a motion, in one word: a pure function of its rows.
 #pragma once
 
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 
 namespace hopmesh::study {
 

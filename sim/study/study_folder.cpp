@@ -24,7 +24,7 @@ std::vector<std::size_t> StudyFolder::missing() const {
   return numbers;
 }
 
-void StudyFolder::keep(const Point& point, const PointRow& row) const {
+void StudyFolder::save(const Point& point, const PointRow& row) const {
   files::CsvWriter table(safe_.file(std::to_string(point.number)), result_header(study_));
   write_result(table, study_, point, row);
   table.commit();

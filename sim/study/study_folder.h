@@ -16,7 +16,7 @@ class StudyFolder {
   /// Numbers of the points still to run.
   std::vector<std::size_t> missing() const;
   /// Safe from any kill once this returns.
-  void keep(const Point& point, const PointRow& row) const;
+  void save(const Point& point, const PointRow& row) const;
   /// results.csv in the points' order, once all are there; says how many of each status.
   std::map<std::string, std::size_t> collect() const;
   const std::filesystem::path& path() const { return safe_.path(); }

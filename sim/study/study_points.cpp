@@ -67,7 +67,7 @@ void check_methods(const Study& study, const Methods& methods) {
         check_method(study, place.method, place.method_line, "axes." + axis.name + ".method", methods);
 }
 
-void check_times(const Study& study, const scene::MotionSpec& motion) {
+void check_times(const Study& study, const scene::MotionKeys& motion) {
   for (double time : study.times) {
     const std::uint64_t step = run::step_of_time(time, motion.time_step);
     if (step < 1 || step > static_cast<std::uint64_t>(motion.steps))

@@ -43,7 +43,7 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
   return row;
 }
 
-void TrialFolder::keep(const Setting& setting, const TrialRow& row) const {
+void TrialFolder::save(const Setting& setting, const TrialRow& row) const {
   files::CsvWriter table(safe_.file(name_of(setting)), columns);
   table.cell(run::name_of(row.outcome)).cell(row.error).cell(row.sweeps).cell(row.most_sweeps);
   table.cell(row.cycles).cell(row.most_cycles).end_row();

@@ -24,7 +24,7 @@ class TrialFolder {
 
   std::optional<TrialRow> find(const Setting& setting) const;
   /// Safe from any kill once this returns.
-  void keep(const Setting& setting, const TrialRow& row) const;
+  void save(const Setting& setting, const TrialRow& row) const;
   const std::filesystem::path& path() const { return safe_.path(); }
 
  private:

@@ -39,7 +39,7 @@ Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
 
 // Two points may work out the same one at the same time: each writes files of its own, the last name wins.
 // Positions come last: where they are, the floor is.
-void keep(const fs::path& stem, const Truth& truth, std::size_t nodes) {
+void save(const fs::path& stem, const Truth& truth, std::size_t nodes) {
   const std::string own = stem.string() + fmt::format(".{}", getpid());
   files::CsvWriter floor(own + ".csv", {"floor"});
   for (double f : truth.floor) floor.cell(f).end_row();
@@ -50,7 +50,7 @@ void keep(const fs::path& stem, const Truth& truth, std::size_t nodes) {
   for (const char* ending : {".csv", ".npy"}) fs::rename(own + ending, stem.string() + ending);
 }
 
-Truth kept(const fs::path& stem) {
+Truth saved(const fs::path& stem) {
   Truth truth;
   const files::CsvTable floor = files::read_csv(stem.string() + ".csv");
   for (std::size_t k = 0; k < floor.rows.size(); ++k)
@@ -70,12 +70,12 @@ Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                      const std::vector<double>& times) const {
   const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);
   const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash_of(around, mesh, times));
-  if (fs::exists(stem.string() + ".npy")) return kept(stem);
+  if (fs::exists(stem.string() + ".npy")) return saved(stem);
   try {
     Truth truth = solve(around, mesh, times);
-    keep(stem, truth, mesh.nodes());
+    save(stem, truth, mesh.nodes());
     return truth;
-  } catch (const rivals::Diverged&) {
+  } catch (const rivals::LostMotion&) {
     return {};
   }
 }

@@ -55,7 +55,7 @@ void relax(benchmark::State& state, const GridNetwork& network, const Options& o
 void relax_reference(benchmark::State& state) {
   const scene::Inputs inputs = scene::read_inputs("flag-400", "", {});
   const levels::BuiltMesh mesh(inputs.scene);
-  const auto motion = reference::motion_of(inputs.scene);
+  const auto motion = reference::step_parameters(inputs.scene);
   const auto order = levels::order_for(mesh, inputs.array.schedule);
   auto at = reference::initial_state(mesh.mesh());
   for (int k = 0; k < 20; ++k) reference::advance(mesh.mesh(), motion, order, at);

@@ -2,7 +2,7 @@
 // how time and memory grow to a million nodes. A program of its own without SystemC.
 #include "rtl_model/spec/schedule.h"
 #include "sim/files/output_file.h"
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 #include "sim/run/run_files.h"
 #include "tests/bench/null_array.h"
 
@@ -63,7 +63,7 @@ class HostRun {
   }
 
   void run() {
-    levels::ArrayMotion motion(inputs_->scene, *mesh_, inputs_->array, *array_, false);
+    levels::ArrayMover motion(inputs_->scene, *mesh_, inputs_->array, *array_, false);
     const run::RunFacts facts{*inputs_, &levels::level_named("systemc", ""), ""};
     run::RunFiles files(results_folder(), facts, *mesh_, motion);
     run::RunResult result;

@@ -1,6 +1,6 @@
 #include "tests/bench/flag_steps.h"
 
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 
 #include <ctime>
 
@@ -13,7 +13,7 @@ double processor_seconds() {
 }
 
 FlagSteps::FlagSteps(const scene::Scene& scene, const levels::BuiltMesh& mesh, tests::Dut& dut)
-    : mesh_(mesh), dut_(dut), parameters_(levels::motion_of(scene)), buffer_(4096) {}
+    : mesh_(mesh), dut_(dut), parameters_(levels::step_parameters(scene)), buffer_(4096) {}
 
 void FlagSteps::begin() {
   memory_.emplace(mesh_);

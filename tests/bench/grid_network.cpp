@@ -23,7 +23,7 @@ GridNetwork scene_network(const std::string& scene, int step, const std::string&
                           const std::vector<std::string>& overrides) {
   const levels::Prepared p = levels::prepare(scene, array, overrides);
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
-  for (int k = 0; k <= step; ++k) level.motion->advance();
+  for (int k = 0; k <= step; ++k) level.mover->advance();
   const levels::BusArray loaded(level.port->bus(), p.mesh->topology());
   return {p.inputs.array, p.mesh->topology(), loaded.weights(), loaded.biases(), level.array->start_raw()};
 }

@@ -1,6 +1,6 @@
 // Levels beside each other, one of them with a fault to order.
 #include "sim/cosim/compare.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/run/run_totals.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"

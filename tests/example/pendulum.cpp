@@ -1,6 +1,6 @@
 // The simulation as a library: reads a shipped scene, changes one number, and moves its mesh in double
 // precision.
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/scene/scene_file.h"
 
 #include <cstdio>
@@ -11,7 +11,7 @@ int main() {
   try {
     const scene::Inputs inputs = scene::read_inputs(SCENES "/two-nodes.toml", "", {"motion.friction=1.0"});
     const levels::BuiltMesh mesh(inputs.scene);
-    levels::ReferenceMotion motion(inputs.scene, mesh, inputs.array);
+    levels::ReferenceMover motion(inputs.scene, mesh, inputs.array);
     for (int step = 0; step < inputs.scene.motion.steps; ++step) {
       const levels::StepRow row = motion.advance();
       const double z = motion.positions()[5]; // of node 1: x y z of node 0 come first

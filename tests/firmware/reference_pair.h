@@ -72,8 +72,8 @@ inline const reference::Formulation* reference_formulation(const hm_formulation*
   return reference::formulations[at - std::begin(hm_formulations)];
 }
 
-inline reference::Motion reference_motion(const hm_step_parameters& m) {
-  reference::Motion r{};
+inline reference::StepParameters reference_motion(const hm_step_parameters& m) {
+  reference::StepParameters r{};
   r.formulation = reference_formulation(m.formulation), r.mass = m.mass, r.drag = m.drag;
   r.time_step = m.time_step, r.friction = m.friction, r.gamma = m.gamma, r.beta = m.beta;
   r.acceleration_memory = m.acceleration_memory;

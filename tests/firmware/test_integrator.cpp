@@ -103,7 +103,7 @@ TEST_P(TwentySteps, FollowTheReference) {
   hm_step_parameters motion = random_parameters(dice);
   const hm_solver solver{nullptr, &relax_in_double};
   const reference::Order order = number_order(pair);
-  reference::Motion same = reference_motion(motion);
+  reference::StepParameters same = reference_motion(motion);
   std::vector<double> node_force;
   if (motion.formulation != &hm_probe && dice.one_in(2)) {
     for (std::size_t k = 0; k < 3 * pair.scene.nodes(); ++k) node_force.push_back(dice.unit() - 0.5);

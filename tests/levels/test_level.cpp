@@ -21,7 +21,7 @@ TEST(LevelTable, EveryRowHasANameOfItsOwnAndOneWayToBeMade) {
   for (const Level& level : levels::levels()) {
     EXPECT_TRUE(names.insert(level.name).second) << level.name;
     EXPECT_NE(level.words, "") << level.name;
-    EXPECT_NE(level.make_port == nullptr, level.make_motion == nullptr) << level.name;
+    EXPECT_NE(level.make_port == nullptr, level.make_mover == nullptr) << level.name;
     EXPECT_EQ(level.has_bus(), level.kind == Kind::array) << level.name;
     EXPECT_TRUE(level.has_bus() || !level.can_wave) << level.name;
     EXPECT_FALSE(level.variants.empty()) << level.name;

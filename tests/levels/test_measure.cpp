@@ -1,5 +1,5 @@
 // Energy, strain and stretch of a state, by hand.
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 
 #include <gtest/gtest.h>
 

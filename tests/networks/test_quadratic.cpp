@@ -12,8 +12,8 @@ using namespace solvers;
 
 using ::testing::HasSubstr;
 
-Course run(const std::string& name, const Problem& p, std::vector<double> gaps = {1e-6},
-           std::uint64_t max_sweeps = 200000) {
+SolverRun run(const std::string& name, const Problem& p, std::vector<double> gaps = {1e-6},
+              std::uint64_t max_sweeps = 200000) {
   return run_solver(name, p, best_answer(p), {std::move(gaps), max_sweeps}, never);
 }
 
@@ -51,13 +51,13 @@ TEST(Quadratic, EverySolverComesToTheAnswer) {
     const Answer answer = best_answer(p);
     const bool bounded = (answer.V.array().abs() == 1).any();
     for (const std::string& name : solver_names()) {
-      const Course course = run(name, p);
+      const SolverRun solver_run = run(name, p);
       if (name == "cholesky" && bounded) {
-        EXPECT_THAT(course.failure, HasSubstr("a bound is active"));
+        EXPECT_THAT(solver_run.failure, HasSubstr("a bound is active"));
       } else if (!may_fail.count(name)) {
-        EXPECT_EQ(course.failure, "") << name << ' ' << k;
-        EXPECT_TRUE(course.reached[0]) << name << ' ' << k;
-        EXPECT_LE(energy(p, course.lowest) - energy(p, answer.V), 1.001e-6 * answer.start_gap + 1e-12)
+        EXPECT_EQ(solver_run.failure, "") << name << ' ' << k;
+        EXPECT_TRUE(solver_run.reached[0]) << name << ' ' << k;
+        EXPECT_LE(energy(p, solver_run.lowest) - energy(p, answer.V), 1.001e-6 * answer.start_gap + 1e-12)
             << name;
       }
     }
@@ -93,7 +93,7 @@ TEST(Quadratic, TwoNeuronsAtOnceGoRoundForEver) {
   EXPECT_EQ(after("hopfield_synchronous", p, 2, false), Vector(Vector::Ones(2)));
   const Answer answer = best_answer(p); // one up, one down: -1, 2 below the start
   EXPECT_DOUBLE_EQ(answer.start_gap, 2);
-  const Course lost = run("hopfield_synchronous", p);
+  const SolverRun lost = run("hopfield_synchronous", p);
   EXPECT_FALSE(lost.reached[0]);
   EXPECT_THAT(lost.failure, HasSubstr("a 2-cycle after 2 sweeps at a gap of 1"));
   EXPECT_EQ(run("hopfield_sequential", p).reached[0]->sweeps, 1u);
@@ -102,17 +102,17 @@ TEST(Quadratic, TwoNeuronsAtOnceGoRoundForEver) {
 TEST(Quadratic, WhatNeedsConvexitySaysSo) {
   const Problem p = problem_of((Eigen::Matrix2d() << -1, 2, 2, -1).finished(), Vector::Constant(2, 0.1),
                                Vector::Constant(2, 0.1)); // along (1, 1) ever lower
-  const Race race = solvers::race(p, {{1e-3}, 5000}, never);
-  EXPECT_FALSE(race.answer.convex);
-  EXPECT_LT((race.answer.V - Vector::Ones(2)).norm(), 1e-9);
-  for (const Course& course : race.courses) {
-    const bool needs = course.name.find("gradient") != std::string::npos ||
-                       course.name.rfind("admm", 0) == 0 || course.name == "projected_newton" ||
-                       course.name == "cholesky";
+  const SolverRuns all = solvers::solve_with_all(p, {{1e-3}, 5000}, never);
+  EXPECT_FALSE(all.answer.convex);
+  EXPECT_LT((all.answer.V - Vector::Ones(2)).norm(), 1e-9);
+  for (const SolverRun& solver_run : all.runs) {
+    const bool needs = solver_run.name.find("gradient") != std::string::npos ||
+                       solver_run.name.rfind("admm", 0) == 0 || solver_run.name == "projected_newton" ||
+                       solver_run.name == "cholesky";
     if (needs) {
-      EXPECT_THAT(course.failure, HasSubstr("needs a convex energy")) << course.name;
+      EXPECT_THAT(solver_run.failure, HasSubstr("needs a convex energy")) << solver_run.name;
     } else {
-      EXPECT_EQ(course.failure, "") << course.name;
+      EXPECT_EQ(solver_run.failure, "") << solver_run.name;
     }
   }
 }
@@ -130,25 +130,25 @@ TEST(Quadratic, NobodyIsBelowTheBestFound) {
   for (int k = 0; k < 25; ++k) {
     const Problem p = random_problem(random, 4 + random.below(8));
     if (p.I.size() == 0) continue;
-    const Race race = solvers::race(p, {{1e-3, 1e-6}, 2000}, never);
-    for (const Course& course : race.courses)
-      EXPECT_GE(energy(p, course.lowest), energy(p, race.answer.V) - 1e-8 * (1 + race.answer.start_gap))
-          << course.name << ' ' << k;
+    const SolverRuns all = solvers::solve_with_all(p, {{1e-3, 1e-6}, 2000}, never);
+    for (const SolverRun& solver_run : all.runs)
+      EXPECT_GE(energy(p, solver_run.lowest), energy(p, all.answer.V) - 1e-8 * (1 + all.answer.start_gap))
+          << solver_run.name << ' ' << k;
   }
 }
 
 TEST(Quadratic, GapsAreReachedInTurnAndTimed) {
   Random random(16);
   const Problem p = random_convex(random, 40, 1);
-  const Course course = run("gauss_seidel", p, {0.5, 1e-2, 1e-8});
-  ASSERT_TRUE(course.reached[0] && course.reached[1] && course.reached[2]);
-  EXPECT_LT(course.reached[0]->sweeps, course.reached[2]->sweeps);
-  EXPECT_LE(course.reached[0]->seconds, course.reached[1]->seconds);
-  EXPECT_GT(course.reached[0]->seconds, 0);
-  EXPECT_EQ(course.reached[2]->sweeps, course.sweeps);
-  EXPECT_EQ(course.rises, 0u);
+  const SolverRun solver_run = run("gauss_seidel", p, {0.5, 1e-2, 1e-8});
+  ASSERT_TRUE(solver_run.reached[0] && solver_run.reached[1] && solver_run.reached[2]);
+  EXPECT_LT(solver_run.reached[0]->sweeps, solver_run.reached[2]->sweeps);
+  EXPECT_LE(solver_run.reached[0]->seconds, solver_run.reached[1]->seconds);
+  EXPECT_GT(solver_run.reached[0]->seconds, 0);
+  EXPECT_EQ(solver_run.reached[2]->sweeps, solver_run.sweeps);
+  EXPECT_EQ(solver_run.rises, 0u);
   const Answer answer = best_answer(p);
-  for (const auto& [gap, reached] : {std::pair(1e-2, course.reached[1]), {1e-8, course.reached[2]}}) {
+  for (const auto& [gap, reached] : {std::pair(1e-2, solver_run.reached[1]), {1e-8, solver_run.reached[2]}}) {
     const auto n = static_cast<int>(reached->sweeps);
     const double start = energy(p, p.start) - energy(p, answer.V);
     const auto left = [&](int sweeps) {
@@ -173,9 +173,9 @@ TEST(Quadratic, AStartAtTheAnswerLeavesNothingToDo) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(2, 2), Vector::Zero(2), Vector::Zero(2));
   Problem counted = p;
   counted.I << 0.5, 0;
-  EXPECT_TRUE(race(reached(counted), {{1e-2}, 10}, never).courses.size() > 0);
+  EXPECT_TRUE(solve_with_all(reached(counted), {{1e-2}, 10}, never).runs.size() > 0);
   counted.start << 0.5, 0;
-  EXPECT_TRUE(race(counted, {{1e-2}, 10}, never).courses.empty());
+  EXPECT_TRUE(solve_with_all(counted, {{1e-2}, 10}, never).runs.empty());
 }
 
 TEST(Quadratic, NeuronsThatNothingReachesAreLeftOut) {
@@ -202,12 +202,12 @@ TEST(Quadratic, ToRestGoesOnBeyondTheLastGap) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
   const auto make = [&] { return std::make_unique<Lattice>(p); };
   const auto answer = best_answer(p);
-  const auto course = run_solver("lattice", make, p, answer, {{0.5}, 100, true}, never);
-  EXPECT_EQ(course.reached[0]->sweeps, 1u);
-  EXPECT_EQ(course.sweeps, 2u) << "the second moves nothing";
-  EXPECT_EQ(course.failure, "") << "the gap that was asked for was reached";
-  EXPECT_EQ(course.least_sweep, 1u);
-  EXPECT_NEAR(course.least_gap, std::pow(0.175 / 0.3, 2), 1e-12);
+  const auto solver_run = run_solver("lattice", make, p, answer, {{0.5}, 100, true}, never);
+  EXPECT_EQ(solver_run.reached[0]->sweeps, 1u);
+  EXPECT_EQ(solver_run.sweeps, 2u) << "the second moves nothing";
+  EXPECT_EQ(solver_run.failure, "") << "the gap that was asked for was reached";
+  EXPECT_EQ(solver_run.least_sweep, 1u);
+  EXPECT_NEAR(solver_run.least_gap, std::pow(0.175 / 0.3, 2), 1e-12);
   const auto stuck = run_solver("lattice", make, p, answer, {{0.1}, 100, true}, never);
   EXPECT_THAT(stuck.failure, HasSubstr("at rest after 2 sweeps at a gap of 0.34"));
   EXPECT_EQ(run_solver("lattice", make, p, answer, {{0.5}, 100}, never).sweeps, 1u);
@@ -229,10 +229,10 @@ class Swinging : public Solver {
 TEST(Quadratic, ToRestEndsWhereNothingGoesLower) {
   const Problem p = problem_of(-Eigen::MatrixXd::Identity(1, 1), Vector::Constant(1, 0.3), Vector::Zero(1));
   const auto make = [&] { return std::make_unique<Swinging>(p); };
-  const auto course = run_solver("swinging", make, p, best_answer(p), {{1e-3}, 100000, true}, never);
-  EXPECT_THAT(course.failure, HasSubstr("no lower since sweep 4 at a gap of 0.11"));
-  EXPECT_EQ(course.sweeps, 109u) << "twice as long and a hundred";
-  EXPECT_EQ(course.least_sweep, 5u) << "2e-5 above 0.2";
+  const auto solver_run = run_solver("swinging", make, p, best_answer(p), {{1e-3}, 100000, true}, never);
+  EXPECT_THAT(solver_run.failure, HasSubstr("no lower since sweep 4 at a gap of 0.11"));
+  EXPECT_EQ(solver_run.sweeps, 109u) << "twice as long and a hundred";
+  EXPECT_EQ(solver_run.least_sweep, 5u) << "2e-5 above 0.2";
 }
 
 } // namespace

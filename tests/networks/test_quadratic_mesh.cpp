@@ -14,7 +14,7 @@ using namespace solvers;
 // such that the largest output of the answer without a box would be `peak`.
 Problem sheet_network(double k, double peak) {
   const scene::Mesh mesh = sheet(12, k / 2);
-  reference::Motion motion{};
+  reference::StepParameters motion{};
   motion.formulation = &reference::backward_euler;
   motion.mass = mesh.mass, motion.drag = 0.2, motion.time_step = 0.05, motion.friction = 1;
   motion.force = {9.81, 3, 0};
@@ -32,35 +32,35 @@ Problem sheet_network(double k, double peak) {
   return at_scale(far * largest / peak);
 }
 
-const Course& course_of(const Race& race, const std::string& name) {
-  for (const Course& course : race.courses)
-    if (course.name == name) return course;
-  throw std::logic_error("no course " + name);
+const SolverRun& run_of(const SolverRuns& all, const std::string& name) {
+  for (const SolverRun& solver_run : all.runs)
+    if (solver_run.name == name) return solver_run;
+  throw std::logic_error("no run of " + name);
 }
 
 /// To the k-th gap; a billion where it was not reached.
-double sweeps(const Race& race, const std::string& name, std::size_t k = 0) {
-  const auto& reached = course_of(race, name).reached.at(k);
+double sweeps(const SolverRuns& all, const std::string& name, std::size_t k = 0) {
+  const auto& reached = run_of(all, name).reached.at(k);
   return reached ? static_cast<double>(reached->sweeps) : 1e9;
 }
 
-const std::string& failure(const Race& race, const std::string& name) {
-  return course_of(race, name).failure;
+const std::string& failure(const SolverRuns& all, const std::string& name) {
+  return run_of(all, name).failure;
 }
 
 TEST(QuadraticMesh, OrderOfTheSolversWithoutABound) {
   for (const double k : {100., 1000.}) {
-    const Race race = solvers::race(sheet_network(k, 0.5), {{1e-4}, 20000}, never);
-    ASSERT_TRUE(race.answer.convex);
+    const SolverRuns all = solvers::solve_with_all(sheet_network(k, 0.5), {{1e-4}, 20000}, never);
+    ASSERT_TRUE(all.answer.convex);
     const std::vector<std::string> faster_first{"cholesky",     "conjugate_gradient",  "accelerated_gradient",
                                                 "gauss_seidel", "hopfield_sequential", "hopfield_damped"};
     for (std::size_t n = 0; n + 1 < faster_first.size(); ++n)
-      EXPECT_LT(sweeps(race, faster_first[n]), sweeps(race, faster_first[n + 1]))
+      EXPECT_LT(sweeps(all, faster_first[n]), sweeps(all, faster_first[n + 1]))
           << faster_first[n] << ", k " << k;
-    EXPECT_LT(sweeps(race, "gauss_seidel"), sweeps(race, "jacobi_damped"));
-    EXPECT_LT(sweeps(race, "admm_hundredth"), sweeps(race, "gauss_seidel"));
-    EXPECT_EQ(sweeps(race, "cholesky"), 1);
-    EXPECT_THAT(failure(race, "jacobi"), ::testing::HasSubstr("the energy rose"));
+    EXPECT_LT(sweeps(all, "gauss_seidel"), sweeps(all, "jacobi_damped"));
+    EXPECT_LT(sweeps(all, "admm_hundredth"), sweeps(all, "gauss_seidel"));
+    EXPECT_EQ(sweeps(all, "cholesky"), 1);
+    EXPECT_THAT(failure(all, "jacobi"), ::testing::HasSubstr("the energy rose"));
   }
 }
 
@@ -78,7 +78,8 @@ TEST(QuadraticMesh, MomentumTakesTheRoot) {
   const Problem soft = sheet_network(30, 0.5), hard = sheet_network(300, 0.5);
   const double worse = condition(hard) / condition(soft);
   EXPECT_GT(worse, 4);
-  const Race before = solvers::race(soft, limits, never), after = solvers::race(hard, limits, never);
+  const SolverRuns before = solvers::solve_with_all(soft, limits, never),
+                   after = solvers::solve_with_all(hard, limits, never);
   const auto growth = [&](const char* name) {
     return (sweeps(after, name, 1) - sweeps(after, name)) / (sweeps(before, name, 1) - sweeps(before, name));
   };
@@ -95,13 +96,13 @@ TEST(QuadraticMesh, MomentumTakesTheRoot) {
 
 TEST(QuadraticMesh, WithTheBoxInTheWay) {
   const Problem p = sheet_network(100, 1.5);
-  const Race race = solvers::race(p, {{1e-6}, 50000}, never);
-  EXPECT_LE(reference::kkt_violation({p.W, p.I}, race.answer.V), 1e-12);
-  EXPECT_GT((race.answer.V.array().abs() == 1).count(), 0);
-  EXPECT_THAT(failure(race, "cholesky"), ::testing::HasSubstr("a bound is active"));
+  const SolverRuns all = solvers::solve_with_all(p, {{1e-6}, 50000}, never);
+  EXPECT_LE(reference::kkt_violation({p.W, p.I}, all.answer.V), 1e-12);
+  EXPECT_GT((all.answer.V.array().abs() == 1).count(), 0);
+  EXPECT_THAT(failure(all, "cholesky"), ::testing::HasSubstr("a bound is active"));
   for (const char* name : {"projected_newton", "conjugate_gradient", "accelerated_gradient", "admm_tenth",
                            "admm_hundredth", "gauss_seidel", "hopfield_coloured"})
-    EXPECT_EQ(failure(race, name), "") << name;
+    EXPECT_EQ(failure(all, name), "") << name;
 }
 
 /// A flag of 20 x 20 nodes, k = 100 N/m, hung by its first column in a wind, half a second under way on the
@@ -126,14 +127,15 @@ class FlagUnderWay : public ::testing::Test {
     return reached(problem_of(network.W, network.I, start));
   }
   static std::vector<double> counts(const Problem& p, const std::string& name) {
-    const auto course = run_solver(name, p, best_answer(p), {{1e-2, 1e-4, 1e-6}, 9999}, never);
+    const auto solver_run = run_solver(name, p, best_answer(p), {{1e-2, 1e-4, 1e-6}, 9999}, never);
     std::vector<double> sweeps;
-    for (const auto& reached : course.reached) sweeps.push_back(static_cast<double>(reached.value().sweeps));
+    for (const auto& reached : solver_run.reached)
+      sweeps.push_back(static_cast<double>(reached.value().sweeps));
     return sweeps;
   }
 
   const scene::Mesh mesh = sheet(20, 50);
-  reference::Motion motion{};
+  reference::StepParameters motion{};
   reference::State state = reference::initial_state(mesh, reference::backward_euler);
   reference::Increment about{};
 };

@@ -27,8 +27,8 @@ inline scene::Mesh flag(std::uint32_t rows, std::uint32_t columns) {
 }
 
 /// The settings of the paper's flags.
-inline reference::Motion flying() {
-  reference::Motion motion{};
+inline reference::StepParameters flying() {
+  reference::StepParameters motion{};
   motion.time_step = 0.05;
   motion.friction = 0.99;
   motion.gamma = 4000;

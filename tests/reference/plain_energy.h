@@ -48,7 +48,7 @@ inline Wide plain_spring(const scene::Spring& spring, const std::array<Wide, 3>&
   return spring.weight * stretch * stretch;
 }
 
-inline Wide plain_beta(const scene::Mesh& mesh, const reference::Motion& motion, std::size_t node) {
+inline Wide plain_beta(const scene::Mesh& mesh, const reference::StepParameters& motion, std::size_t node) {
   Wide sum = 0, count = 0;
   for (const auto& spring : mesh.springs)
     if (spring.node[0] == node || spring.node[1] == node) {
@@ -60,8 +60,8 @@ inline Wide plain_beta(const scene::Mesh& mesh, const reference::Motion& motion,
 }
 
 /// E(V) of docs/method/theory.md, section 1.
-inline Wide plain_energy(const scene::Mesh& mesh, const reference::Motion& motion, const reference::Vector& C,
-                         const WideVector& V) {
+inline Wide plain_energy(const scene::Mesh& mesh, const reference::StepParameters& motion,
+                         const reference::Vector& C, const WideVector& V) {
   const Wide h = Wide(motion.time_step) * motion.time_step / 2;
   Wide sum = 0;
   for (const auto& spring : mesh.springs)

@@ -47,9 +47,9 @@ inline scene::Mesh random_mesh(Random& random, std::uint32_t nodes, bool planar,
   return mesh;
 }
 
-inline reference::Motion random_motion(Random& random) {
+inline reference::StepParameters random_motion(Random& random) {
   const double steps[] = {0.01, 0.05, 0.2, 1.0};
-  reference::Motion motion{};
+  reference::StepParameters motion{};
   motion.time_step = steps[random.below(4)];
   motion.friction = 0.99;
   motion.gamma = random.between(0.1, 10);

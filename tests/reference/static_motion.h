@@ -6,8 +6,8 @@
 namespace hopmesh::tests {
 
 /// Relaxed to the end, one expansion a step.
-inline reference::Motion static_motion() {
-  reference::Motion motion{};
+inline reference::StepParameters static_motion() {
+  reference::StepParameters motion{};
   motion.formulation = &reference::statics;
   motion.mass = motion.time_step = motion.friction = 1;
   motion.force.setZero();

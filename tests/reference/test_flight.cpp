@@ -19,7 +19,7 @@ TEST(ReferenceFlight, FreeFallIsExact) {
   // 1) / 2.
   scene::Mesh mesh = flag(3, 4);
   mesh.pinned.assign(mesh.nodes(), false);
-  Motion motion = flying();
+  StepParameters motion = flying();
   motion.gamma = 0;
   motion.friction = 1;
   motion.time_step = 0.0625;
@@ -39,7 +39,7 @@ TEST(ReferenceFlight, FreeFallIsExact) {
 TEST(ReferenceFlight, ForceOnTheAccelerationActsOneStepLater) {
   // gamma = 0, memory 1, no friction: a = f after the first step, so x stands still in it and v too.
   scene::Mesh mesh = flag(2, 2);
-  Motion motion = flying();
+  StepParameters motion = flying();
   motion.gamma = 0;
   motion.friction = 1;
   motion.time_step = 0.5;
@@ -58,7 +58,7 @@ TEST(ReferenceFlight, ForceOnTheAccelerationActsOneStepLater) {
 
 TEST(ReferenceFlight, PinnedNodesNeverMoveAndFreeOnesDo) {
   const scene::Mesh mesh = flag(4, 5);
-  const Motion motion = flying();
+  const StepParameters motion = flying();
   State state = initial_state(mesh);
   const State start = state;
   for (int k = 0; k < 20; ++k) advance(mesh, motion, one_by_one(state.V.size()), state);
@@ -75,7 +75,7 @@ TEST(ReferenceFlight, EveryNodeMovesByTheOldStateOfTheOthers) {
   mesh.position = {{-1.5, 0, 0}, {0, 0, 0}, {1.5, 0, 0}};
   mesh.pinned = {false, true, false};
   mesh.springs = {{{0, 1}, 1, 1}, {{0, 2}, 1, 2}, {{1, 2}, 1, 1}};
-  Motion motion = flying();
+  StepParameters motion = flying();
   motion.force.setZero();
   motion.threshold = 1e-12;
   motion.max_sweeps = 20000;
@@ -95,9 +95,9 @@ TEST(ReferenceFlight, ASecondExpansionIsTheFirstOnesRestExpandedAgain) {
   Random random(43);
   for (int k = 0; k < 20; ++k) {
     const scene::Mesh mesh = random_mesh(random, 8, k % 2 == 1);
-    Motion once = random_motion(random);
+    StepParameters once = random_motion(random);
     once.time_step = 1; // the expansion point matters
-    Motion twice = once;
+    StepParameters twice = once;
     twice.expansions = 2;
     const State start = random_state(random, mesh);
     const Order order = one_by_one(start.V.size());
@@ -119,7 +119,7 @@ TEST(ReferenceFlight, ASecondExpansionIsTheFirstOnesRestExpandedAgain) {
 TEST(ReferenceFlight, APlanarMeshMovesAsTheSameMeshInSpace) {
   scene::Mesh flat = flag(4, 4), in_space = flat;
   flat.planar = true;
-  Motion motion = flying();
+  StepParameters motion = flying();
   motion.force = {0.3, 0, -0.1};
   State two = initial_state(flat), three = initial_state(in_space);
   for (int k = 0; k < 40; ++k) {
@@ -132,7 +132,7 @@ TEST(ReferenceFlight, APlanarMeshMovesAsTheSameMeshInSpace) {
 TEST(ReferenceFlight, InAPlanarMeshYNeverMoves) {
   Random random(44);
   const scene::Mesh mesh = random_mesh(random, 9, true);
-  const Motion motion = random_motion(random);
+  const StepParameters motion = random_motion(random);
   State state = initial_state(mesh);
   const State start = state;
   ASSERT_NE(motion.force.y(), 0);
@@ -145,7 +145,7 @@ TEST(ReferenceFlight, TheProbeKicksAMeshThatIsAtRest) {
   // Its noise floor: every spring has its natural length and nothing pulls, but a unit probe costs energy
   // and sqrt(gamma dE) turns that into a kick.
   const scene::Mesh mesh = flag(3, 3);
-  Motion motion = flying();
+  StepParameters motion = flying();
   motion.force.setZero();
   State state = initial_state(mesh);
   EXPECT_NEAR(spring_energy(mesh, state.position), 0, 1e-30);
@@ -157,7 +157,7 @@ TEST(ReferenceFlight, AFlagFliesWithThePapersSettings) {
   // Bounded for 100 steps with memory 0; with the paper's literal eq. 7 (memory 1, force on a) it falls
   // apart.
   const scene::Mesh mesh = flag(8, 8);
-  const auto largest_strain = [&](Motion motion) {
+  const auto largest_strain = [&](StepParameters motion) {
     State state = initial_state(mesh);
     const Order order = one_by_one(state.V.size());
     double largest = 0;
@@ -171,7 +171,7 @@ TEST(ReferenceFlight, AFlagFliesWithThePapersSettings) {
     }
     return largest;
   };
-  Motion literal = flying();
+  StepParameters literal = flying();
   literal.acceleration_memory = 1;
   literal.force_on_acceleration = true;
   const double memoryless = largest_strain(flying());

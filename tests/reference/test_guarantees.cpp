@@ -222,7 +222,7 @@ TEST(ReferenceGuarantees, AnyOrderBringsANeuralMeshToTheSolutionOfItsLinearSyste
   Random random(36);
   for (int k = 0; k < 30; ++k) {
     const scene::Mesh mesh = random_mesh(random, 6 + random.below(8), k % 2 == 1, 0);
-    Motion motion = random_motion(random);
+    StepParameters motion = random_motion(random);
     motion.time_step = 1;
     motion.beta = 0;
     const Vector C = 0.1 * predict(mesh, motion, random_state(random, mesh));

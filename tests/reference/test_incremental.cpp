@@ -13,12 +13,12 @@ using namespace reference;
 
 struct Case {
   scene::Mesh mesh;
-  Motion motion;
+  StepParameters motion;
   State state;
 };
 
-Motion incremental_motion(Random& random, const Formulation& formulation) {
-  Motion motion = random_motion(random);
+StepParameters incremental_motion(Random& random, const Formulation& formulation) {
+  StepParameters motion = random_motion(random);
   motion.formulation = &formulation;
   motion.mass = random.between(0.1, 2);
   motion.drag = random.chance(0.5) ? 0 : random.between(0.1, 5);
@@ -183,7 +183,7 @@ struct Hanging {
   double v() const { return state.velocity[5]; }
 
   scene::Mesh mesh;
-  Motion motion{};
+  StepParameters motion{};
   State state;
 };
 

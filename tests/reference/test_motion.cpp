@@ -23,7 +23,7 @@ Eigen::Vector3d output(const scene::Mesh& mesh, const Vector& V, std::size_t nod
 /// Node 1 two below the pin on a spring of length 1, dt = 1 so that h = 1/2; friction 1/2; one sweep a step.
 struct Hanging {
   scene::Mesh mesh;
-  Motion motion{};
+  StepParameters motion{};
   Hanging() {
     mesh.position = {{0, 0, 0}, {0, 0, -2}};
     mesh.pinned = {true, false};
@@ -45,7 +45,7 @@ TEST(ReferenceMotion, IsReadFromTheScene) {
   scene.relax = {1e-3, 77, 3};
   scene.force.gravity = {1, 2, 3};
   scene.force.wind = scene::Vector3{10, 20, 30};
-  Motion motion = motion_of(scene);
+  StepParameters motion = step_parameters(scene);
   EXPECT_EQ(motion.time_step, 0.25);
   EXPECT_EQ(motion.friction, 0.75);
   EXPECT_EQ(motion.gamma, 11);
@@ -60,7 +60,7 @@ TEST(ReferenceMotion, IsReadFromTheScene) {
   scene.force.wind.reset();
   scene.probe.energy_springs = scene::EnergySprings::own;
   scene.probe.force_on = scene::ForceOn::velocity;
-  motion = motion_of(scene);
+  motion = step_parameters(scene);
   EXPECT_EQ(motion.force, Eigen::Vector3d(1, 2, 3));
   EXPECT_FALSE(motion.energy_of_all_springs);
   EXPECT_FALSE(motion.force_on_acceleration);
@@ -143,8 +143,8 @@ TEST(ReferenceMotion, UpdateOrderByHand) {
 }
 
 // Delta E_i of docs/method/theory.md, section 4, with every spring asked whether it belongs.
-double brute_energy_change(const scene::Mesh& mesh, const Motion& motion, const Vector& x, const Step& step,
-                           std::size_t i) {
+double brute_energy_change(const scene::Mesh& mesh, const StepParameters& motion, const Vector& x,
+                           const Step& step, std::size_t i) {
   const Wide h = Wide(motion.time_step) * motion.time_step / 2;
   WideVector only_i(step.relaxation.V.size(), 0);
   const double length = output(mesh, step.relaxation.V, i).norm();
@@ -167,7 +167,7 @@ void expect_brute_energy_changes(bool all, std::uint64_t seed) {
   Random random(seed);
   for (int k = 0; k < 60; ++k) {
     const scene::Mesh mesh = random_mesh(random, 5 + random.below(6), k % 2 == 1);
-    Motion motion = random_motion(random);
+    StepParameters motion = random_motion(random);
     motion.energy_of_all_springs = all;
     motion.force_on_acceleration = false;
     motion.acceleration_memory = 0;

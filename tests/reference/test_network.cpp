@@ -13,7 +13,7 @@ using namespace reference;
 /// A step about to be expanded.
 struct Case {
   scene::Mesh mesh;
-  Motion motion;
+  StepParameters motion;
   Vector C, V0;
 };
 
@@ -83,7 +83,7 @@ TEST(ReferenceEnergy, OfOneSpringByHand) {
   EXPECT_EQ(spring_energy(mesh, initial_state(mesh).position), 63);
   // dt = 2, so h = 2: V = (0, 0, -1/2) takes node 1 to (4, 1, 4), length sqrt 18, plus beta dt^4 alpha
   // (1/2)^2.
-  Motion motion{};
+  StepParameters motion{};
   motion.time_step = 2;
   motion.beta = 3;
   Vector V = Vector::Zero(6);
@@ -100,7 +100,7 @@ TEST(ReferenceEnergy, BetaIsDt4TimesMeanAlphaOfTheNodesSprings) {
   mesh.position = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
   mesh.pinned = {true, false, true, false};
   mesh.springs = {{{0, 1}, 2, 1}, {{1, 2}, 6, 1}};
-  Motion motion{};
+  StepParameters motion{};
   motion.time_step = 0.5;
   motion.beta = 3;
   EXPECT_DOUBLE_EQ(energy(mesh, motion, initial_state(mesh).position, Vector::Zero(12)), 3 * 0.0625 * 4);
@@ -224,7 +224,7 @@ TEST(ReferenceNetwork, OfOneSpringByHand) {
   mesh.position = {{0, 0, 0}, {0, 0, -2}};
   mesh.pinned = {true, false};
   mesh.springs = {{{0, 1}, 1, 1}};
-  Motion motion{};
+  StepParameters motion{};
   motion.time_step = 1;
   motion.beta = 1;
   const State state = initial_state(mesh);
@@ -242,7 +242,7 @@ TEST(ReferenceNetwork, ASpringOfNoLengthCountsAsOneWithoutRestLength) {
     mesh.position = {{0, 0, 0}, {0, 0, 0.5}};
     mesh.pinned = {true, false};
     mesh.springs = {{{0, 1}, 3, rest}};
-    Motion motion{};
+    StepParameters motion{};
     motion.time_step = 1;
     const State state = initial_state(mesh);
     const Network net = network(mesh, motion, state.position, expansion_point(mesh, state));
@@ -258,7 +258,7 @@ TEST(ReferenceNetwork, ANodeWithoutDirectionIsPulledTowardMinusZ) {
   mesh.position = {{0, 0, 0}, {0, 0, 0}};
   mesh.pinned = {true, false};
   mesh.springs = {{{0, 1}, 2, 0}};
-  Motion motion{};
+  StepParameters motion{};
   motion.time_step = 1;
   motion.beta = 3;
   const double two_beta = 2 * 3 * 2, two_alpha_h2 = 1;
@@ -274,7 +274,7 @@ TEST(ReferenceNetwork, TheModelOfANodeWithoutDirectionTouchesTheEnergyAndLiesNow
   mesh.position = {{0, 0, 0}, {0, 0, 0}};
   mesh.pinned = {true, false};
   mesh.springs = {{{0, 1}, 2, 0}}; // quadratic already: the model's error is that of the unit-length term
-  Motion motion{};
+  StepParameters motion{};
   motion.time_step = 1;
   motion.beta = 3;
   const Vector C = Vector::Zero(6), V0 = Vector::Zero(6);

@@ -53,7 +53,7 @@ TEST(ReferenceStatic, OneStepOfAMeshWithoutRestLengthsSolvesItsLinearSystem) {
     const bool planar = k % 2 == 1;
     scene::Mesh mesh = random_mesh(random, 6 + random.below(8), planar, 0);
     mesh.pinned[0] = true;
-    Motion motion = static_motion();
+    StepParameters motion = static_motion();
     motion.force = {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)};
     motion.node_force.resize(3 * nodes_of(mesh));
     for (double& a : motion.node_force) a = random.between(-1, 1);
@@ -90,7 +90,7 @@ TEST(ReferenceStatic, AChainComesToHangAsItsClosedFormSays) {
   for (const double aside : {0.0, 0.8}) { // straight down, and a zigzag off the line
     scene::Mesh mesh = chain(6);
     for (std::size_t i = 1; i < mesh.nodes(); ++i) mesh.position[i][0] = i % 2 ? aside : -aside / 3;
-    Motion motion = static_motion();
+    StepParameters motion = static_motion();
     motion.mass = mesh.mass;
     motion.force = {0, 0, -g};
     State state = initial_state(mesh, *motion.formulation);
@@ -109,7 +109,7 @@ TEST(ReferenceStatic, AChainComesToHangAsItsClosedFormSays) {
 // What a chain of links at their natural length offers sideways is nothing: a step must not go for ever.
 TEST(ReferenceStatic, AStepAgainstNothingGoesNoFurtherThanTheLongestSpring) {
   scene::Mesh mesh = chain(6);
-  Motion motion = static_motion();
+  StepParameters motion = static_motion();
   motion.force = {5, 0, 0};
   State state = initial_state(mesh, *motion.formulation);
   const Vector start = state.position;
@@ -123,7 +123,7 @@ TEST(ReferenceStatic, TheNetworkHasTheSlopeOfThePotential) {
   for (int k = 0; k < 20; ++k) {
     scene::Mesh mesh = random_mesh(random, 6, k % 2 == 1, k % 3);
     if (k % 4 == 3) mesh.law = scene::SpringLaw::tension, mesh.floor = 0.1;
-    Motion motion = static_motion();
+    StepParameters motion = static_motion();
     motion.force = {0.3, -0.2, -1};
     const State state = random_state(random, mesh);
     const Increment about = increment(mesh, motion, state);

@@ -21,7 +21,7 @@ bool holds(const std::string& name, const Physics& physics, double time_step) {
   const Vector rest = physics.initial_state().position;
   try {
     for (int k = 0; k < 3000; ++k) method->advance();
-  } catch (const Diverged&) {
+  } catch (const LostMotion&) {
     return false;
   }
   return (method->state().position - rest).lpNorm<Eigen::Infinity>() < 1e-6;
@@ -60,7 +60,7 @@ TEST(RivalsLimit, WhoDivergesSaysSoInASentence) {
   const scene::Mesh mesh = sheet(8, 50);
   const Physics physics(mesh, banner_air);
   const auto method = make_method("velocity_verlet", physics, 0.1);
-  const std::string lost = complaint<Diverged>([&] {
+  const std::string lost = complaint<LostMotion>([&] {
     for (int k = 0; k < 1000; ++k) method->advance();
   });
   EXPECT_NE(lost.find("velocity_verlet diverged in step"), std::string::npos) << lost;

@@ -28,12 +28,11 @@ struct Rig {
   explicit Rig(const levels::Level& level)
       : prepared{{short_scene(), fine_array()}, std::make_unique<levels::BuiltMesh>(short_scene())},
         ready(levels::make_ready(level, prepared, true)), mesh(*prepared.mesh),
-        motion(ready.motion.get()), facts{prepared.inputs, &level, "hopmesh run grid", 0, level.has_codes()} {
-  }
+        motion(ready.mover.get()), facts{prepared.inputs, &level, "hopmesh run grid", 0, level.has_codes()} {}
   levels::Prepared prepared;
   levels::ReadyLevel ready;
   const levels::BuiltMesh& mesh;
-  levels::Motion* motion;
+  levels::Mover* motion;
   run::RunFacts facts;
 };
 

@@ -9,13 +9,13 @@ namespace {
 using run::Outcome;
 using ::testing::HasSubstr;
 
-class ToldMotion : public levels::Motion {
+class ToldMotion : public levels::Mover {
  public:
   std::uint64_t diverge_at = UINT64_MAX, stop_at = UINT64_MAX, stretch_at = UINT64_MAX, done = 0;
   double stretch = 10;
 
   levels::StepRow advance() override {
-    if (done == diverge_at) throw levels::Diverged("node 3 has no finite position");
+    if (done == diverge_at) throw levels::LostMotion("node 3 has no finite position");
     if (done == stop_at) throw levels::Stopped();
     levels::StepRow row;
     row.step = done++;
@@ -35,7 +35,7 @@ class ToldMotion : public levels::Motion {
 struct Log : run::StepSink {
   std::vector<std::uint64_t> steps;
   std::atomic<bool>* stop = nullptr;
-  void step(const levels::StepRow& row, const levels::Motion&) override {
+  void step(const levels::StepRow& row, const levels::Mover&) override {
     steps.push_back(row.step);
     if (stop && row.step == 2) *stop = true;
   }

@@ -4,6 +4,7 @@
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/cosim/shrink.h"
+#include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
 #include "sim/run/array_info.h"
 #include "sim/run/children.h"
@@ -17,7 +18,7 @@ namespace hopmesh::cli {
 namespace {
 
 using cosim::Ways;
-using run::grouped;
+using input::grouped;
 
 struct FuzzOptions {
   std::vector<std::string> levels = levels::level_names({levels::Kind::array});

@@ -3,6 +3,7 @@
 
 #include "sim/cli/options.h"
 #include "sim/cosim/random_job.h"
+#include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/run/array_info.h"
@@ -16,7 +17,7 @@ namespace hopmesh::cli {
 namespace {
 
 using cosim::VectorCase;
-using run::grouped;
+using input::grouped;
 
 struct VectorsOptions {
   CommonOptions common;
@@ -80,7 +81,7 @@ std::optional<VectorCase> case_of_step(VectorsOptions& o) {
   {
     const auto steps = static_cast<std::uint64_t>(o.step) + 1;
     run::Progress progress(steps);
-    result = run::simulate(*level.motion, steps, {&progress}, levels::stop_requested);
+    result = run::simulate(*level.mover, steps, {&progress}, levels::stop_requested);
   }
   if (result.rows.size() <= static_cast<std::size_t>(o.step)) {
     fmt::print("{}\n", result.sentence);

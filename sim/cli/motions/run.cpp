@@ -75,7 +75,7 @@ Begun begin(RunOptions& o) {
   const run::RunFacts facts{inputs, &level, command_of(o), static_cast<std::uint64_t>(o.steps),
                             asks_reference(o, level)};
   const std::filesystem::path folder = o.out.empty() ? default_folder(inputs.scene.name) : o.out;
-  run.files = std::make_unique<run::RunFiles>(folder, facts, *run.prepared.mesh, *run.level.motion);
+  run.files = std::make_unique<run::RunFiles>(folder, facts, *run.prepared.mesh, *run.level.mover);
   return run;
 }
 
@@ -93,7 +93,7 @@ Begun begin_again(const RunOptions& o) {
   run.prepared = {std::move(found.inputs), std::move(found.mesh)};
   const levels::Level& level = levels::level_named(saved.level, saved.file);
   run.level = levels::make_ready(level, run.prepared, saved.check, request_of(o));
-  run.level.motion->restore(saved.state, saved.ranges);
+  run.level.mover->restore(saved.state, saved.ranges);
   run.earlier.rows = std::move(found.rows);
   run.earlier.wall_seconds = saved.wall_seconds;
   const run::RunFacts facts{run.prepared.inputs, &level, saved.command, steps > 0 ? steps : saved.asked,
@@ -112,11 +112,11 @@ run::RunResult fly(Begun& run, std::string& trouble) {
   });
   if (before > 0) progress.say(fmt::format("checkpoint: goes on behind {} of {} steps", before, steps));
   if (before == 0 && run.every > 0)
-    safe.save(*run.level.motion); // a kill before the first K steps is resumable
-  auto result = run::simulate(*run.level.motion, steps, {run.files.get(), &safe, &progress},
+    safe.save(*run.level.mover); // a kill before the first K steps is resumable
+  auto result = run::simulate(*run.level.mover, steps, {run.files.get(), &safe, &progress},
                               levels::stop_requested, run.earlier);
   try {
-    if (result.outcome == run::Outcome::interrupted) safe.save(*run.level.motion);
+    if (result.outcome == run::Outcome::interrupted) safe.save(*run.level.mover);
   } catch (const files::WriteError& error) {
     trouble = error.what(); // the results may be small enough all the same
   }
@@ -128,7 +128,7 @@ int run(RunOptions& o) {
   Begun run = o.resume.empty() ? begin(o) : begin_again(o);
   std::string trouble;
   const run::RunResult result = fly(run, trouble);
-  const levels::Motion& motion = *run.level.motion;
+  const levels::Mover& motion = *run.level.mover;
   const run::RunFacts& facts = run.files->facts();
   if (run.level.port) run.level.port->finish();
   run.files->finish(result, motion);

@@ -2,9 +2,9 @@
 #include "sim/cli/options.h"
 #include "sim/files/matrix_market.h"
 #include "sim/files/npy.h"
+#include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
-#include "sim/levels/reference_motion.h"
-#include "sim/run/counted.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/run/progress.h"
 #include "sim/run/simulation.h"
 
@@ -45,7 +45,7 @@ int network(NetworkOptions& o) {
     throw input::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   files::check_writable(o.out, p.mesh->topology().weight_words() * 48 + p.mesh->nodes() * 256);
-  levels::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
+  levels::ReferenceMover motion(p.inputs.scene, *p.mesh, p.inputs.array);
   levels::catch_interrupts();
   run::RunResult result;
   {
@@ -61,8 +61,9 @@ int network(NetworkOptions& o) {
   write_files(o.out, motion.last_step());
   const levels::StepRow& row = result.rows.back();
   fmt::print("{} step {}: {}, {}, {}; written to {}\n", p.inputs.scene.name, o.step,
-             run::counted(static_cast<std::uint64_t>(motion.last_step().network.W.nonZeros()), "weight"),
-             run::counted(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps", o.out);
+             input::with_noun(static_cast<std::uint64_t>(motion.last_step().network.W.nonZeros()), "weight"),
+             input::with_noun(row.sweeps, "sweep"), row.converged ? "converged" : "stopped by max_sweeps",
+             o.out);
   if (motion.formulation().increment)
     fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
   return done;

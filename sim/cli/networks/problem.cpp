@@ -3,6 +3,7 @@
 
 #include "sim/cli/options.h"
 #include "sim/files/output_file.h"
+#include "sim/input/count_text.h"
 #include "sim/run/array_info.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ int problem(const ProblemRequest& o) {
   files::write_vector(folder / "bias.mtx", p.bias);
   files::write_vector(folder / "V0.mtx", p.start);
   fmt::print("{}: {}; {} weights; written to {}\n", p.name, problems::about(p.name),
-             run::grouped(p.W.entries.size()), o.out);
+             input::grouped(p.W.entries.size()), o.out);
   return done;
 }
 

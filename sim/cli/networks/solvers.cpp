@@ -31,22 +31,23 @@ std::string time_text(const std::optional<solvers::Reached>& reached) {
   return reached ? fmt::format("{:.3g}", 1e3 * reached->seconds) : "-";
 }
 
-void print_table(const solvers::Race& race, const std::vector<double>& gaps) {
+void print_table(const solvers::SolverRuns& all, const std::vector<double>& gaps) {
   fmt::print("{:<22}", "");
   for (const double gap : gaps) fmt::print("{:>9}", fmt::format("{:g}", gap));
   fmt::print("  |");
   for (const double gap : gaps) fmt::print("{:>9}", fmt::format("{:g}", gap));
   fmt::print("  factorisations\n");
-  for (const solvers::Course& course : race.courses) {
-    fmt::print("{:<22}", course.name);
-    for (const auto& reached : course.reached) fmt::print("{:>9}", count_text(reached));
+  for (const solvers::SolverRun& solver_run : all.runs) {
+    fmt::print("{:<22}", solver_run.name);
+    for (const auto& reached : solver_run.reached) fmt::print("{:>9}", count_text(reached));
     fmt::print("  |");
-    for (const auto& reached : course.reached) fmt::print("{:>9}", time_text(reached));
-    fmt::print("  {}{}{}\n", course.factorisations, course.failure.empty() ? "" : "  ", course.failure);
+    for (const auto& reached : solver_run.reached) fmt::print("{:>9}", time_text(reached));
+    fmt::print("  {}{}{}\n", solver_run.factorisations, solver_run.failure.empty() ? "" : "  ",
+               solver_run.failure);
   }
 }
 
-void write_csv(const solvers::Race& race, const std::vector<double>& gaps,
+void write_csv(const solvers::SolverRuns& all, const std::vector<double>& gaps,
                const std::filesystem::path& path) {
   std::vector<std::string> columns{"method"};
   for (const char* kind : {"sweeps", "cpu_seconds"})
@@ -55,29 +56,29 @@ void write_csv(const solvers::Race& race, const std::vector<double>& gaps,
        {"factorisations", "sweeps_done", "sweeps_rising", "least_gap", "least_sweep", "failure"})
     columns.emplace_back(name);
   files::CsvWriter out(path, columns);
-  for (const solvers::Course& course : race.courses) {
-    out.cell(course.name);
-    for (const auto& reached : course.reached) reached ? out.cell(reached->sweeps) : out.cell("");
-    for (const auto& reached : course.reached) reached ? out.cell(reached->seconds) : out.cell("");
-    out.cell(course.factorisations).cell(course.sweeps).cell(course.rises);
-    out.cell(course.least_gap).cell(course.least_sweep).cell(course.failure).end_row();
+  for (const solvers::SolverRun& solver_run : all.runs) {
+    out.cell(solver_run.name);
+    for (const auto& reached : solver_run.reached) reached ? out.cell(reached->sweeps) : out.cell("");
+    for (const auto& reached : solver_run.reached) reached ? out.cell(reached->seconds) : out.cell("");
+    out.cell(solver_run.factorisations).cell(solver_run.sweeps).cell(solver_run.rises);
+    out.cell(solver_run.least_gap).cell(solver_run.least_sweep).cell(solver_run.failure).end_row();
   }
   out.commit();
 }
 
 // A gap below the last that counts is drawn a decade below it: exact answers have no place on a logarithm.
-std::string chart_of(const solvers::Race& race, const std::vector<double>& gaps, const std::string& title,
-                     const std::string& command) {
+std::string chart_of(const solvers::SolverRuns& all, const std::vector<double>& gaps,
+                     const std::string& title, const std::string& command) {
   pictures::Chart chart;
   chart.title = title, chart.curves = true;
   chart.x_label = "sweeps or iterations", chart.y_label = "energy left above the answer, of the start's";
-  for (const solvers::Course& course : race.courses) {
-    pictures::ChartSeries series{course.name, {{}}};
-    for (const solvers::Lap& lap : course.laps) {
-      const double gap = std::max(lap.gap, gaps.back() / 10);
-      series.ladders[0].push_back({static_cast<double>(lap.sweep), gap, false,
-                                   fmt::format("{}, sweep {}\ngap {:.3g}", course.name, lap.sweep, lap.gap),
-                                   command});
+  for (const solvers::SolverRun& solver_run : all.runs) {
+    pictures::ChartSeries series{solver_run.name, {{}}};
+    for (const solvers::Sample& sample : solver_run.samples) {
+      const double gap = std::max(sample.gap, gaps.back() / 10);
+      series.ladders[0].push_back(
+          {static_cast<double>(sample.sweep), gap, false,
+           fmt::format("{}, sweep {}\ngap {:.3g}", solver_run.name, sample.sweep, sample.gap), command});
     }
     chart.series.push_back(std::move(series));
   }
@@ -85,7 +86,7 @@ std::string chart_of(const solvers::Race& race, const std::vector<double>& gaps,
 }
 
 /// Up to and with the step; none where it was reached, else how the program ends.
-std::optional<int> walk(levels::ReferenceMotion& motion, std::uint64_t step, levels::StepState& before) {
+std::optional<int> walk(levels::ReferenceMover& motion, std::uint64_t step, levels::StepState& before) {
   run::Progress progress(step + 1);
   run::RunResult result = run::simulate(motion, step, {&progress}, levels::stop_requested);
   before = motion.state();
@@ -104,10 +105,10 @@ std::string words_of(const SolversOptions& o) {
   return words;
 }
 
-void write_files(const SolversOptions& o, const solvers::Race& race, const std::string& title) {
+void write_files(const SolversOptions& o, const solvers::SolverRuns& all, const std::string& title) {
   const std::filesystem::path folder = o.out;
-  write_csv(race, o.gaps, folder / "solvers.csv");
-  files::write_file(folder / "solvers.svg", chart_of(race, o.gaps, title + ": ways to its network's answer",
+  write_csv(all, o.gaps, folder / "solvers.csv");
+  files::write_file(folder / "solvers.svg", chart_of(all, o.gaps, title + ": ways to its network's answer",
                                                      "hopmesh solvers " + words_of(o)));
   fmt::print("Results\n  {}\n  {}\n", (folder / "solvers.csv").string(), (folder / "solvers.svg").string());
 }
@@ -117,25 +118,25 @@ int race_all(const SolversOptions& o, const levels::Prepared& p, const solvers::
   const solvers::Problem problem = solvers::reached(whole);
   const solvers::Limits limits{o.gaps, static_cast<std::uint64_t>(o.max_sweeps)};
   const std::string title = fmt::format("{} step {}", p.inputs.scene.name, o.step);
-  solvers::Race race = solvers::race(problem, limits, levels::stop_requested);
+  solvers::SolverRuns all = solvers::solve_with_all(problem, limits, levels::stop_requested);
   if (levels::stop_requested) return interrupted;
-  if (race.courses.empty()) {
+  if (all.runs.empty()) {
     fmt::print("{}: the network starts at its rest; there is nothing to solve\n", title);
     return differs;
   }
   networks::StepArray array(whole, p);
-  race.courses.insert(race.courses.begin(),
-                      networks::run_array(array, problem, race.answer, limits, levels::stop_requested));
+  all.runs.insert(all.runs.begin(),
+                  networks::run_array(array, problem, all.answer, limits, levels::stop_requested));
   if (levels::stop_requested) return interrupted;
   fmt::print("{}: {} outputs, {} weights; {}\n", title, problem.I.size(), problem.W.nonZeros(),
-             race.answer.convex ? "convex, gaps to the exact answer"
-                                : "not convex, gaps to the lowest energy found");
+             all.answer.convex ? "convex, gaps to the exact answer"
+                               : "not convex, gaps to the lowest energy found");
   fmt::print(
       "sweeps, then processor milliseconds (shared cores: a guide), until the energy's gap is that part "
       "of the start's\n");
-  print_table(race, o.gaps);
-  fmt::print("{}", networks::stall_text(array, race.courses.front(), problem, race.answer));
-  if (!o.out.empty()) write_files(o, race, title);
+  print_table(all, o.gaps);
+  fmt::print("{}", networks::stall_text(array, all.runs.front(), problem, all.answer));
+  if (!o.out.empty()) write_files(o, all, title);
   return done;
 }
 
@@ -148,7 +149,7 @@ int solvers(SolversOptions& o) {
     throw input::input_error("", 0, "--step", std::to_string(o.step),
                              fmt::format("0 to {} (the scene's steps)", p.inputs.scene.motion.steps - 1));
   if (!o.out.empty()) files::check_writable(o.out, 1 << 20);
-  levels::ReferenceMotion motion(p.inputs.scene, *p.mesh, p.inputs.array);
+  levels::ReferenceMover motion(p.inputs.scene, *p.mesh, p.inputs.array);
   levels::catch_interrupts();
   levels::StepState before;
   if (const auto ended = walk(motion, static_cast<std::uint64_t>(o.step), before)) return *ended;

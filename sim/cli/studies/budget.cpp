@@ -4,7 +4,7 @@
 #include "sim/levels/exact_step.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/pictures/svg_bars.h"
 #include "sim/run/progress.h"
 #include "sim/run/run_totals.h"
@@ -34,7 +34,7 @@ struct BudgetOptions {
 /// A motion of the chain, and what the next one mends.
 struct Link {
   std::string motion, mends;
-  std::shared_ptr<levels::Motion> made;
+  std::shared_ptr<levels::Mover> made;
   std::vector<run::Positions> at;
 };
 
@@ -47,7 +47,7 @@ struct Budget {
 };
 
 void set_steps(const BudgetOptions& o, levels::Prepared& p) {
-  scene::MotionSpec& motion = p.inputs.scene.motion;
+  scene::MotionKeys& motion = p.inputs.scene.motion;
   if (o.steps > 0) motion.steps = o.steps;
   if (o.time == 0) return;
   const double steps = std::round(o.time / motion.time_step);
@@ -57,7 +57,7 @@ void set_steps(const BudgetOptions& o, levels::Prepared& p) {
   motion.steps = static_cast<std::int64_t>(steps);
 }
 
-std::vector<double> times_of(const scene::MotionSpec& motion) {
+std::vector<double> times_of(const scene::MotionKeys& motion) {
   std::vector<double> times;
   const auto steps = static_cast<std::uint64_t>(motion.steps), count = std::min(steps, most_times);
   for (std::uint64_t k = 1; k <= count; ++k) {
@@ -78,17 +78,16 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
                            const levels::ReadyLevel& array) {
   const scene::Scene& scene = p.inputs.scene;
   std::vector<Link> chain;
-  const std::shared_ptr<levels::Motion> run(std::shared_ptr<void>(), array.motion.get());
+  const std::shared_ptr<levels::Mover> run(std::shared_ptr<void>(), array.motion.get());
   chain.push_back({fmt::format("array {}", p.inputs.array.name), "quantisation", run, {}});
   chain.push_back({"reference, the same sweeps at most and threshold",
                    "unfinished relaxation",
-                   std::make_shared<levels::ReferenceMotion>(scene, *p.mesh, p.inputs.array),
+                   std::make_shared<levels::ReferenceMover>(scene, *p.mesh, p.inputs.array),
                    {}});
-  chain.push_back(
-      {"reference, relaxed to rest",
-       "formulation",
-       std::make_shared<levels::ReferenceMotion>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
-       {}});
+  chain.push_back({"reference, relaxed to rest",
+                   "formulation",
+                   std::make_shared<levels::ReferenceMover>(at_rest_scene(o, scene), *p.mesh, p.inputs.array),
+                   {}});
   if (levels::ExactStep::exists_for(scene))
     chain.push_back({scene.formulation_name() + ", each step solved exactly",
                      "time step",
@@ -99,7 +98,7 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
 
 /// Flies one motion; false where it was interrupted.
 bool fly(const levels::Prepared& p, Link& link, Budget& budget) {
-  const scene::MotionSpec& motion = p.inputs.scene.motion;
+  const scene::MotionKeys& motion = p.inputs.scene.motion;
   const auto steps = static_cast<std::uint64_t>(motion.steps);
   run::Snapshots snapshots(budget.times, motion.time_step);
   run::Progress progress(steps);

@@ -3,11 +3,11 @@
 #include "sim/cli/usage.h"
 #include "sim/files/csv.h"
 #include "sim/files/running_check.h"
+#include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "sim/run/array_info.h"
-#include "sim/run/counted.h"
 #include "sim/run/run_totals.h"
 #include "sim/study/size_search.h"
 #include "sim/study/truth_store.h"
@@ -50,8 +50,8 @@ struct Target {
 };
 
 Target target_of(const SizeOptions& o, const levels::Prepared& p, const fs::path& folder) {
-  const scene::MotionSpec& motion = p.inputs.scene.motion;
-  levels::ReferenceMotion reference(p.inputs.scene, *p.mesh, p.inputs.array);
+  const scene::MotionKeys& motion = p.inputs.scene.motion;
+  levels::ReferenceMover reference(p.inputs.scene, *p.mesh, p.inputs.array);
   run::Progress progress(static_cast<std::uint64_t>(motion.steps));
   const run::RunResult result =
       run::simulate(reference, static_cast<std::uint64_t>(motion.steps), {&progress}, levels::stop_requested);
@@ -76,10 +76,10 @@ Target target_of(const SizeOptions& o, const levels::Prepared& p, const fs::path
 // Ranges are of values: the array as given shows them.
 std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
-  run::simulate(*level.motion, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
+  run::simulate(*level.mover, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
                 levels::stop_requested);
   if (levels::stop_requested) throw study::SearchStopped();
-  return level.motion->ranges();
+  return level.mover->ranges();
 }
 
 std::uint64_t hash_of(const SizeOptions& o, const levels::Prepared& p) {
@@ -180,20 +180,20 @@ void print_lanes(const SizeOptions& o, const levels::Prepared& p, const study::S
     if (e.what != "lanes") continue;
     const spec::ArraySpec array = sizing.array_of(e.setting);
     fmt::print("  {:>3} lanes {:>14} cycles {:>12.3g} s the slowest step {:>14} silicon bits\n", array.lanes,
-               run::grouped(e.row.cycles), static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6),
-               run::grouped(static_cast<std::uint64_t>(sizing.silicon_bits(e.setting))));
+               input::grouped(e.row.cycles), static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6),
+               input::grouped(static_cast<std::uint64_t>(sizing.silicon_bits(e.setting))));
   }
   for (const spec::ArraySpec& array : {p.inputs.array, sizing.array_of(found.setting)})
     fmt::print("  {:<12} {:>12} memory bits {:>12} multiplier bits\n", array.name,
-               run::grouped(run::memory_bits(*p.mesh, array).total()),
-               run::grouped(run::multiplier_bits(*p.mesh, array)));
+               input::grouped(run::memory_bits(*p.mesh, array).total()),
+               input::grouped(run::multiplier_bits(*p.mesh, array)));
 }
 
 void print(const SizeOptions& o, const levels::Prepared& p, const study::Sizing& sizing, const Target& target,
            const study::SizeFound& found, const fs::path& folder) {
   const study::SizeEvidence &size = found.evidence[0], &file = found.evidence[1];
   fmt::print("{}: at most {} m rms from the {} after {}\n", p.inputs.scene.name, o.error, o.against,
-             run::counted(static_cast<std::uint64_t>(p.inputs.scene.motion.steps), "step"));
+             input::with_noun(static_cast<std::uint64_t>(p.inputs.scene.motion.steps), "step"));
   if (o.against == truth)
     fmt::print("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
                target.reached, target.floor);
@@ -203,9 +203,9 @@ void print(const SizeOptions& o, const levels::Prepared& p, const study::Sizing&
              found.met, found.cheaper);
   const std::string command = file_command(o, folder);
   fmt::print("With the scene's relaxation: {:.3g} m, {}\n  {}\n", file.row.error,
-             run::counted(file.row.sweeps, "sweep"), command);
+             input::with_noun(file.row.sweeps, "sweep"), command);
   fmt::print("With the least of its own: {:.3g} m, {}\n  {}{}\n", size.row.error,
-             run::counted(size.row.sweeps, "sweep"), command, relaxation_words(sizing, found));
+             input::with_noun(size.row.sweeps, "sweep"), command, relaxation_words(sizing, found));
   fmt::print("Results\n  {}\n  {}\n", (folder / "size.toml").string(), (folder / "size.csv").string());
 }
 

@@ -66,7 +66,7 @@ int one_point(const study::Study& study, const study::StudyFolder& folder, const
     row.sentence = error.what();
   }
   if (levels::stop_requested || row.outcome == run::Outcome::interrupted) return interrupted;
-  folder.keep(point, row);
+  folder.save(point, row);
   return done;
 }
 
@@ -76,7 +76,7 @@ void keep_crash(const study::Study& study, const study::StudyFolder& folder, std
   row.outcome = run::Outcome::crashed;
   row.stability = study::Stability::blow_up;
   row.sentence = run::describe(end);
-  folder.keep(study::point_of(study, number), row);
+  folder.save(study::point_of(study, number), row);
 }
 
 bool run_local(const StudyOptions& o, const study::Study& study, const study::StudyFolder& folder,
@@ -128,7 +128,7 @@ void tell_rest(const StudyOptions& o, const study::Study& study, const study::St
 }
 
 // A level keeps references to what it was made from: all of it lives as long as the motion.
-std::shared_ptr<levels::Motion> motion_of(const std::string& method, const scene::Inputs& inputs) {
+std::shared_ptr<levels::Mover> motion_of(const std::string& method, const scene::Inputs& inputs) {
   struct Kept {
     levels::Prepared prepared;
     levels::ReadyLevel level;
@@ -136,7 +136,7 @@ std::shared_ptr<levels::Motion> motion_of(const std::string& method, const scene
   auto kept = std::make_shared<Kept>();
   kept->prepared = {inputs, std::make_unique<levels::BuiltMesh>(inputs.scene)};
   kept->level = levels::make_ready(levels::level_named(method, "methods"), kept->prepared, true);
-  levels::Motion* motion = kept->level.motion.get();
+  levels::Mover* motion = kept->level.mover.get();
   return {kept, motion};
 }
 

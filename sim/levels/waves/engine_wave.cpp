@@ -22,7 +22,7 @@ EngineWave::EngineWave(WaveRequest request, const spec::ArraySpec& array, const 
 EngineWave::~EngineWave() {
   finish();
   if (!trouble_.empty() || !began_ || done_) return;
-  tell_no_wave(request_);
+  warn_empty_window(request_);
 }
 
 void EngineWave::finish() {
@@ -124,7 +124,7 @@ void EngineWave::clock() {
   guarded([&] { vcd_->edge(2 * now_, segment, asleep); });
   if (!vcd_ || cycles() % 1000 != 0 || !disk_nearly_full(request_)) return;
   close(2 * now_ + 1);
-  trouble_ = ended_early(request_);
+  trouble_ = early_end_text(request_);
 }
 
 void EngineWave::ran(const engine::Engine& array) {

@@ -14,7 +14,7 @@ Wave::Wave(WaveRequest request, systemc::Device& device, const sc_core::sc_signa
 
 Wave::~Wave() {
   if (file_) close();
-  if (began_ && !done_) tell_no_wave(request_);
+  if (began_ && !done_) warn_empty_window(request_);
 }
 
 void Wave::open() {
@@ -45,11 +45,11 @@ void Wave::walk(systemc::CycleWindow window) {
   if (waking_ == systemc::Waking::by_phase) device_.walk(window);
 }
 
-void Wave::mind_the_disk() {
+void Wave::close_when_disk_full() {
   if (!file_ || !disk_nearly_full(request_)) return;
   walk({});
   close();
-  trouble_ = ended_early(request_);
+  trouble_ = early_end_text(request_);
 }
 
 void Wave::begin_step(std::uint64_t step) {

@@ -28,7 +28,7 @@ class Wave {
   void change();
   /// While the wave is open: ends it, complete up to now, when its disk is nearly full (SystemC does not
   /// look).
-  void mind_the_disk();
+  void close_when_disk_full();
   bool open_now() const { return file_ != nullptr; }
   /// Why there is no whole wave, in one line; empty if all is well.
   const std::string& trouble() const { return trouble_; }

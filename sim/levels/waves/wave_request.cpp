@@ -62,11 +62,11 @@ bool disk_nearly_full(const WaveRequest& request) {
   return !error && space.available < least;
 }
 
-std::string ended_early(const WaveRequest& request) {
+std::string early_end_text(const WaveRequest& request) {
   return request.file + ": the wave ends early, its disk is nearly full (less than 64 MB left)";
 }
 
-void tell_no_wave(const WaveRequest& request) {
+void warn_empty_window(const WaveRequest& request) {
   fmt::print(stderr, "hopmesh: {}: no wave, the run ended before the window began\n", request.file);
 }
 

@@ -24,8 +24,8 @@ void check_wave(const WaveRequest& request, std::size_t cells);
 
 /// So little room that a wave had better end while it is whole.
 bool disk_nearly_full(const WaveRequest& request);
-std::string ended_early(const WaveRequest& request);
+std::string early_end_text(const WaveRequest& request);
 /// Tells that the run ended before its window began.
-void tell_no_wave(const WaveRequest& request);
+void warn_empty_window(const WaveRequest& request);
 
 } // namespace hopmesh::levels

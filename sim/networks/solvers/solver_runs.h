@@ -24,40 +24,40 @@ struct Reached {
   double seconds = 0;
 };
 
-struct Lap {
+struct Sample {
   std::uint64_t sweep;
   double gap; ///< relative to the start's
 };
 
-struct Course {
+struct SolverRun {
   std::string name;
   std::vector<std::optional<Reached>> reached; ///< one a gap of the limits
   std::uint64_t sweeps = 0, rises = 0;         ///< done; in how many of them the energy rose
   std::uint64_t factorisations = 0;
   double seconds = 0;
   std::string failure;           ///< a sentence; "" where every gap was reached
-  std::vector<Lap> laps;         ///< for a chart: ever sparser
+  std::vector<Sample> samples;   ///< for a chart: ever sparser
   Vector lowest;                 ///< of the least energy met
   double least_gap = 1;          ///< there, relative
   std::uint64_t least_sweep = 0; ///< when it was first met
 };
 
 /// Runs a solver until the last gap, a cycle, a rest, max_sweeps or `stop`.
-Course run_solver(const std::string& name, const Problem& problem, const Answer& answer, const Limits& limits,
-                  const std::atomic<bool>& stop);
+SolverRun run_solver(const std::string& name, const Problem& problem, const Answer& answer,
+                     const Limits& limits, const std::atomic<bool>& stop);
 
 /// Runs a solver of somebody else's likewise; `make` counts as its preparation.
 using MakeSolver = std::function<std::unique_ptr<Solver>()>;
-Course run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
-                  const Answer& answer, const Limits& limits, const std::atomic<bool>& stop);
+SolverRun run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
+                     const Answer& answer, const Limits& limits, const std::atomic<bool>& stop);
 
-struct Race {
+struct SolverRuns {
   Answer answer;
-  std::vector<Course> courses;
+  std::vector<SolverRun> runs;
 };
 
 /// All of solver_names(); none where the start is the answer. Where the energy is not convex, against the
 /// lowest that any of them found.
-Race race(const Problem& problem, const Limits& limits, const std::atomic<bool>& stop);
+SolverRuns solve_with_all(const Problem& problem, const Limits& limits, const std::atomic<bool>& stop);
 
 } // namespace hopmesh::solvers

@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   write_glb(view, folder / "mesh.glb");
   view.good = false;
   view.crest = false;
-  view.outcome = "Diverged at step 212: node 57 left the range of the positions' format.";
+  view.outcome = "LostMotion at step 212: node 57 left the range of the positions' format.";
   write_report(view, folder / "report-diverged.html");
   return 0;
 } catch (const std::exception& error) {

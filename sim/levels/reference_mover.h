@@ -2,15 +2,15 @@
 #pragma once
 
 #include "sim/levels/image_force.h"
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/levels/reference_check.h"
 
 namespace hopmesh::levels {
 
-class ReferenceMotion : public Motion {
+class ReferenceMover : public Mover {
  public:
   /// Fires in the order of the array, and as its output stage does: its sweeps are comparable.
-  ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
+  ReferenceMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array);
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return position_; }
@@ -22,7 +22,7 @@ class ReferenceMotion : public Motion {
 
  private:
   const BuiltMesh& mesh_;
-  reference::Motion motion_;
+  reference::StepParameters motion_;
   std::optional<ImageForce> image_;
   const reference::Order order_;
   reference::State state_;

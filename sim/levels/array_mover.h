@@ -5,17 +5,17 @@
 #include "sim/levels/bus_profile.h"
 #include "sim/levels/codes.h"
 #include "sim/levels/image_force.h"
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/levels/reference_check.h"
 #include "sim/levels/step_memory.h"
 
 namespace hopmesh::levels {
 
-class ArrayMotion : public Motion {
+class ArrayMover : public Mover {
  public:
   /// `check`: ask the reference beside every step.
-  ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array, ArrayPort& port,
-              bool check);
+  ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array, ArrayPort& port,
+             bool check);
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return memory_.now.position; }
@@ -50,6 +50,6 @@ class ArrayMotion : public Motion {
 };
 
 /// The firmware's parameters of a scene's steps; force is gravity plus wind.
-hm_step_parameters motion_of(const scene::Scene& scene);
+hm_step_parameters step_parameters(const scene::Scene& scene);
 
 } // namespace hopmesh::levels

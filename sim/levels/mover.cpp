@@ -1,4 +1,4 @@
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 
 #include "sim/levels/reference_check.h"
 
@@ -6,15 +6,14 @@
 
 namespace hopmesh::levels {
 
-ReferenceMotion::ReferenceMotion(const scene::Scene& scene, const BuiltMesh& mesh,
-                                 const spec::ArraySpec& array)
+ReferenceMover::ReferenceMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array)
     : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh(), *motion_.formulation)),
       position_(state_.position.data(), state_.position.data() + state_.position.size()) {
   if (scene.force.image) image_.emplace(scene);
 }
 
-StepRow ReferenceMotion::advance() {
+StepRow ReferenceMover::advance() {
   if (image_) {
     const std::vector<double>& pull = image_->at(position_);
     motion_.node_force =
@@ -23,7 +22,7 @@ StepRow ReferenceMotion::advance() {
   reference::State next = state_;
   last_ = reference::advance(mesh_.mesh(), motion_, order_, next);
   if (!next.position.allFinite() || !next.velocity.allFinite())
-    throw Diverged("a node has no finite position");
+    throw LostMotion("a node has no finite position");
   state_ = next;
   position_.assign(state_.position.data(), state_.position.data() + state_.position.size());
 
@@ -41,7 +40,7 @@ StepRow ReferenceMotion::advance() {
   return row;
 }
 
-StepState ReferenceMotion::state() const {
+StepState ReferenceMover::state() const {
   const auto values = [](const reference::Vector& v) {
     return std::vector<double>(v.data(), v.data() + v.size());
   };
@@ -54,7 +53,7 @@ StepState ReferenceMotion::state() const {
           values(state_.previous_velocity)};
 }
 
-void ReferenceMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
+void ReferenceMover::restore(const StepState& state, const std::vector<SignalRange>&) {
   const auto copy = [](const std::vector<double>& from, reference::Vector& to) {
     if (static_cast<Eigen::Index>(from.size()) != to.size())
       throw std::logic_error("the state of another mesh");

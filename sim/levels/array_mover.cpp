@@ -1,4 +1,4 @@
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 
 #include "firmware/registers.h"
 #include "sim/levels/bus_array.h"
@@ -19,7 +19,7 @@ const hm_formulation* formulation_named(const std::string& name) {
 
 } // namespace
 
-hm_step_parameters motion_of(const scene::Scene& scene) {
+hm_step_parameters step_parameters(const scene::Scene& scene) {
   hm_step_parameters m{};
   m.formulation = formulation_named(scene.formulation_name());
   m.time_step = scene.motion.time_step;
@@ -39,21 +39,21 @@ hm_step_parameters motion_of(const scene::Scene& scene) {
   return m;
 }
 
-ArrayMotion::ArrayMotion(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
-                         ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port, array), motion_(motion_of(scene)),
+ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
+                       ArrayPort& port, bool check)
+    : mesh_(mesh), port_(port), profile_(port, array), motion_(step_parameters(scene)),
       memory_(mesh, motion_.formulation->looks_back), buffer_(4096) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
 }
 
 // The array is looked at with the first step, when every port of the process has been made.
-void ArrayMotion::open() {
+void ArrayMover::open() {
   check(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
                        static_cast<std::uint32_t>(buffer_.size())));
 }
 
-StepRow ArrayMotion::advance() {
+StepRow ArrayMover::advance() {
   if (!driver_.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.now.output;
@@ -67,11 +67,11 @@ StepRow ArrayMotion::advance() {
     std::copy(rest_.begin(), rest_.end(), memory_.now.output.begin());
     throw Stopped();
   }
-  if (error == HM_ERROR_NUMBER) throw Diverged(error_text(error));
+  if (error == HM_ERROR_NUMBER) throw LostMotion(error_text(error));
   if (error != HM_ERROR_LOST) check(error);
   port_.end_step(step);
   if (error == HM_ERROR_LOST)
-    throw Diverged("node " + std::to_string(result.lost_node) + " has no finite position");
+    throw LostMotion("node " + std::to_string(result.lost_node) + " has no finite position");
 
   StepRow row;
   row.step = step;
@@ -95,11 +95,11 @@ StepRow ArrayMotion::advance() {
   return row;
 }
 
-std::uint64_t ArrayMotion::bus_cycles() const {
+std::uint64_t ArrayMover::bus_cycles() const {
   return BusArray(port_.bus(), mesh_.topology()).read_wide(HM_REG_BUS_CYCLES_LO);
 }
 
-std::vector<SignalRange> ArrayMotion::ranges() const {
+std::vector<SignalRange> ArrayMover::ranges() const {
   auto all = profile_.ranges();
   for (const SignalRange& range : port_.inner_ranges()) all.push_back(range);
   for (SignalRange& range : all)
@@ -111,14 +111,14 @@ std::vector<SignalRange> ArrayMotion::ranges() const {
   return all;
 }
 
-StepState ArrayMotion::state() const {
+StepState ArrayMover::state() const {
   StepState state = memory_.now;
   state.step = memory_.state.step;
   return state;
 }
 
 // Values are copied into place: the firmware's pointers stay what they are.
-void ArrayMotion::restore(const StepState& state, const std::vector<SignalRange>& seen) {
+void ArrayMover::restore(const StepState& state, const std::vector<SignalRange>& seen) {
   const auto from = parts_of(state);
   const auto to = parts_of(memory_.now);
   for (std::size_t k = 0; k < to.size(); ++k) {

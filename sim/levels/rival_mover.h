@@ -1,15 +1,15 @@
 // A rival as a motion, so that run and study take it as they take a level of the array.
 #pragma once
 
-#include "sim/levels/motion.h"
+#include "sim/levels/mover.h"
 #include "sim/rivals/integrator.h"
 
 namespace hopmesh::levels {
 
-class RivalMotion : public Motion {
+class RivalMover : public Mover {
  public:
   /// `name`: one of rivals::names(). The mesh must outlive it.
-  RivalMotion(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh);
+  RivalMover(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh);
 
   StepRow advance() override;
   const std::vector<double>& positions() const override { return position_; }
@@ -17,7 +17,7 @@ class RivalMotion : public Motion {
   void restore(const StepState& state, const std::vector<SignalRange>& seen) override;
 
  private:
-  void keep();
+  void show_state();
 
   const BuiltMesh& mesh_;
   const rivals::Physics physics_;

@@ -1,4 +1,4 @@
-#include "sim/levels/rival_motion.h"
+#include "sim/levels/rival_mover.h"
 
 namespace hopmesh::levels {
 
@@ -18,24 +18,24 @@ rivals::State state_of(const std::vector<double>& position, const std::vector<do
 
 } // namespace
 
-RivalMotion::RivalMotion(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
+RivalMover::RivalMover(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
     : mesh_(mesh), physics_(mesh.mesh(), rivals::surroundings_of(scene)), time_step_(scene.motion.time_step),
       method_(rivals::make_method(name, physics_, time_step_)) {
-  keep();
+  show_state();
 }
 
-void RivalMotion::keep() {
+void RivalMover::show_state() {
   position_ = values(method_->positions());
   velocity_ = values(method_->velocities());
 }
 
-StepRow RivalMotion::advance() {
+StepRow RivalMover::advance() {
   try {
     method_->advance();
-  } catch (const rivals::Diverged& lost) {
-    throw Diverged(lost.what());
+  } catch (const rivals::LostMotion& lost) {
+    throw LostMotion(lost.what());
   }
-  keep();
+  show_state();
   StepRow row;
   row.step = step_++;
   row.time = static_cast<double>(step_) * time_step_;
@@ -45,7 +45,7 @@ StepRow RivalMotion::advance() {
   return row;
 }
 
-StepState RivalMotion::state() const {
+StepState RivalMover::state() const {
   StepState s;
   s.step = step_;
   s.position = position_;
@@ -57,7 +57,7 @@ StepState RivalMotion::state() const {
   return s;
 }
 
-void RivalMotion::restore(const StepState& state, const std::vector<SignalRange>&) {
+void RivalMover::restore(const StepState& state, const std::vector<SignalRange>&) {
   const auto differs = [&](const std::vector<double>& v) { return v.size() != position_.size(); };
   const bool looks_back = !state.previous_position.empty();
   if (differs(state.position) || differs(state.velocity) ||
@@ -67,7 +67,7 @@ void RivalMotion::restore(const StepState& state, const std::vector<SignalRange>
   const rivals::State now = state_of(state.position, state.velocity);
   const rivals::State before = state_of(state.previous_position, state.previous_velocity);
   method_->go_on_from(now, state.previous_position.empty() ? nullptr : &before);
-  keep();
+  show_state();
 }
 
 } // namespace hopmesh::levels

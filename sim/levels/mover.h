@@ -13,15 +13,15 @@
 namespace hopmesh::levels {
 
 /// The step had no finite answer; what() says in a sentence what was found.
-class Diverged : public std::runtime_error {
+class LostMotion : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-class Motion {
+class Mover {
  public:
-  virtual ~Motion() = default;
-  /// Does the next step. Throws Diverged or Stopped with the state of the last good step kept.
+  virtual ~Mover() = default;
+  /// Does the next step. Throws LostMotion or Stopped with the state of the last good step kept.
   virtual StepRow advance() = 0;
   virtual const std::vector<double>& positions() const = 0; ///< [nodes * 3]
   /// V at rest as raw codes, [nodes * components]; empty at levels without codes.

@@ -1,7 +1,7 @@
 // Firmware, driver, bus and a software array beside the double reference.
-#include "sim/levels/array_motion.h"
+#include "sim/levels/array_mover.h"
 #include "sim/levels/bus_array.h"
-#include "sim/levels/reference_motion.h"
+#include "sim/levels/reference_mover.h"
 #include "tests/support/complaint.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"
@@ -28,16 +28,16 @@ struct Rig {
       : mesh(s), port(a, mesh.topology()), motion(s, mesh, a, port, check) {}
   levels::BuiltMesh mesh;
   SoftArray port;
-  levels::ArrayMotion motion;
+  levels::ArrayMover motion;
 };
 
-TEST(ArrayMotion, FollowsTheReferenceAsFarAsTheFormatsReach) {
+TEST(ArrayMover, FollowsTheReferenceAsFarAsTheFormatsReach) {
   for (bool planar : {false, true}) {
     scene::Scene scene = grid_scene(3, 3);
     scene.mesh.planar = planar;
     if (planar) scene.force.wind = scene::Vector3{0.3, 0, 0};
     Rig rig(scene);
-    levels::ReferenceMotion reference(scene, rig.mesh, fine_array());
+    levels::ReferenceMover reference(scene, rig.mesh, fine_array());
     for (int k = 0; k < 4; ++k) {
       const StepRow a = rig.motion.advance(), b = reference.advance();
       EXPECT_EQ(a.sweeps, b.sweeps);
@@ -53,13 +53,13 @@ TEST(ArrayMotion, FollowsTheReferenceAsFarAsTheFormatsReach) {
   }
 }
 
-TEST(ArrayMotion, ACoarseArrayIsFurtherOff) {
+TEST(ArrayMover, ACoarseArrayIsFurtherOff) {
   spec::ArraySpec byte = *spec::preset("byte");
   Rig fine(grid_scene(3, 3)), coarse(grid_scene(3, 3), byte);
   EXPECT_GT(coarse.motion.advance().error->largest_output, 100 * fine.motion.advance().error->largest_output);
 }
 
-TEST(ArrayMotion, RowsTellStepTimeCyclesAndBus) {
+TEST(ArrayMover, RowsTellStepTimeCyclesAndBus) {
   Rig rig(grid_scene(2, 2));
   for (std::uint64_t k = 0; k < 3; ++k) {
     const StepRow row = rig.motion.advance();
@@ -74,7 +74,7 @@ TEST(ArrayMotion, RowsTellStepTimeCyclesAndBus) {
   EXPECT_EQ(rig.port.ended, rig.port.begun);
 }
 
-TEST(ArrayMotion, WithoutCheckTheMotionIsTheSame) {
+TEST(ArrayMover, WithoutCheckTheMotionIsTheSame) {
   Rig with(grid_scene(3, 3)), without(grid_scene(3, 3), fine_array(), false);
   for (int k = 0; k < 3; ++k) {
     const StepRow a = with.motion.advance(), b = without.motion.advance();
@@ -84,7 +84,7 @@ TEST(ArrayMotion, WithoutCheckTheMotionIsTheSame) {
   }
 }
 
-TEST(ArrayMotion, RawOutputsAreWhatTheArrayHolds) {
+TEST(ArrayMover, RawOutputsAreWhatTheArrayHolds) {
   Rig rig(grid_scene(2, 3));
   rig.motion.advance();
   const auto rest = rig.motion.rest_raw();
@@ -92,7 +92,7 @@ TEST(ArrayMotion, RawOutputsAreWhatTheArrayHolds) {
   EXPECT_EQ(rig.motion.outputs_raw(), rig.mesh.by_node(rest));
 }
 
-TEST(ArrayMotion, RangesCoverWhatPassedTheBusAndWhatThePortSaw) {
+TEST(ArrayMover, RangesCoverWhatPassedTheBusAndWhatThePortSaw) {
   Rig rig(grid_scene(2, 3));
   rig.motion.advance();
   const auto ranges = rig.motion.ranges();
@@ -106,7 +106,7 @@ TEST(ArrayMotion, RangesCoverWhatPassedTheBusAndWhatThePortSaw) {
   EXPECT_EQ(ranges[3].largest, 4);
 }
 
-TEST(ArrayMotion, AStoppedStepDidNotHappen) {
+TEST(ArrayMover, AStoppedStepDidNotHappen) {
   Rig rig(grid_scene(2, 3));
   rig.motion.advance();
   const auto before = rig.motion.positions();
@@ -115,22 +115,22 @@ TEST(ArrayMotion, AStoppedStepDidNotHappen) {
   EXPECT_EQ(rig.motion.positions(), before);
 }
 
-TEST(ArrayMotion, ABrokenBusIsTold) {
+TEST(ArrayMover, ABrokenBusIsTold) {
   Rig rig(grid_scene(2, 3));
   rig.port.refuse = true;
   EXPECT_THAT(complaint<std::runtime_error>([&] { rig.motion.advance(); }),
               HasSubstr("the bus refused a transfer"));
 }
 
-TEST(ArrayMotion, AnArrayBuiltForAnotherMeshIsTold) {
+TEST(ArrayMover, AnArrayBuiltForAnotherMeshIsTold) {
   const scene::Scene scene = grid_scene(2, 3);
   const levels::BuiltMesh mesh(scene), other(grid_scene(3, 3));
   SoftArray port(fine_array(), other.topology());
-  levels::ArrayMotion motion(scene, mesh, fine_array(), port, false);
+  levels::ArrayMover motion(scene, mesh, fine_array(), port, false);
   EXPECT_THROW(motion.advance(), std::runtime_error);
 }
 
-TEST(ArrayMotion, NumbersBeyondDoubleDivergeAndTheLastGoodStateStays) {
+TEST(ArrayMover, NumbersBeyondDoubleDivergeAndTheLastGoodStateStays) {
   scene::Scene scene = grid_scene(1, 2);
   scene.force.gravity = {0, 0, -1e15};
   scene.motion.time_step = 1e15;
@@ -142,18 +142,18 @@ TEST(ArrayMotion, NumbersBeyondDoubleDivergeAndTheLastGoodStateStays) {
       rig.motion.advance();
     }
   };
-  EXPECT_THROW(until_it_diverges(), levels::Diverged);
+  EXPECT_THROW(until_it_diverges(), levels::LostMotion);
   EXPECT_EQ(rig.motion.positions(), before);
   for (double x : before) EXPECT_TRUE(std::isfinite(x));
 }
 
-TEST(ArrayMotion, TakesEveryKeyOfTheMotion) {
+TEST(ArrayMover, TakesEveryKeyOfTheMotion) {
   scene::Scene s;
   s.motion.time_step = 0.1, s.motion.friction = 0.5;
   s.probe = {7, 8, 0.25, scene::EnergySprings::all, scene::ForceOn::acceleration};
   s.relax = {1e-3, 77, 3};
   s.force.gravity = {1, 2, 3}, s.force.wind = scene::Vector3{10, 20, 30};
-  const hm_step_parameters m = levels::motion_of(s);
+  const hm_step_parameters m = levels::step_parameters(s);
   EXPECT_EQ(
       std::vector<double>({m.time_step, m.friction, m.gamma, m.beta, m.acceleration_memory, m.threshold}),
       std::vector<double>({0.1, 0.5, 7, 8, 0.25, 1e-3}));
