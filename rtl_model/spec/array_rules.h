@@ -86,8 +86,8 @@ inline ArraySpec prescaled_array() {
   ArraySpec a;
   a.name = "prescaled";
   a.normaliser = Normaliser::prescaled;
-  a.formats.weight = NumberFormat{16, 1, Rounding::trn_zero, Overflow::sat};
-  a.formats.bias = NumberFormat{16, 1, Rounding::trn_zero, Overflow::sat};
+  a.formats.weight = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
+  a.formats.bias = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
   return a;
 }
 
