@@ -25,7 +25,7 @@ namespace {
 
 void comment_answers(VectorWriter& file, const Way& way, const ArrayJob& job, levels::ArrayPort* array) {
   if (!array) return;
-  const Answer a = ask(array->bus(), job, true);
+  const Answer a = ask(BusArray(array->bus(), job.topology), job, true);
   file.comment(fmt::format("{}: end {} {:d} {} {}", way.name, a.end.sweeps, a.end.converged,
                            a.end.largest_change, a.end.cycles));
   for (std::size_t k = 0; k < a.outputs.size(); ++k)

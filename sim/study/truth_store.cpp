@@ -4,8 +4,6 @@
 #include "sim/files/csv_table.h"
 #include "sim/files/npy.h"
 #include "sim/levels/step_state.h"
-#include "sim/rivals/integrator.h"
-#include "sim/rivals/truth.h"
 #include "sim/run/checkpoint.h"
 
 #include <fmt/format.h>
@@ -16,26 +14,6 @@ namespace hopmesh::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double tolerance = 1e-11; // relative and absolute; far below what any rival reaches
-
-// What the exact motion depends on: not the method, not the time step but through friction.
-std::uint64_t hash_of(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
-                      const std::vector<double>& times) {
-  std::vector<double> numbers = around.numbers();
-  numbers.insert(numbers.end(), times.begin(), times.end());
-  return levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
-}
-
-Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
-            const std::vector<double>& times) {
-  const rivals::Truth found = rivals::solve(rivals::Physics(mesh.mesh(), around), times, tolerance);
-  Truth truth;
-  truth.floor = found.floor;
-  for (const rivals::Vector& at : found.positions)
-    truth.positions.emplace_back(at.data(), at.data() + at.size());
-  return truth;
-}
 
 // Two points may work out the same one at the same time: each writes files of its own, the last name wins.
 // Positions come last: where they are, the floor is.
@@ -63,21 +41,19 @@ Truth saved(const fs::path& stem) {
 } // namespace
 
 void TruthStore::expect_known(const scene::Scene& scene) {
-  rivals::surroundings_of(scene);
+  levels::exact_surroundings(scene);
 }
 
 Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                      const std::vector<double>& times) const {
-  const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);
-  const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash_of(around, mesh, times));
+  std::vector<double> numbers = levels::exact_surroundings(inputs.scene);
+  numbers.insert(numbers.end(), times.begin(), times.end());
+  const std::uint64_t hash = levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
+  const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash);
   if (fs::exists(stem.string() + ".npy")) return saved(stem);
-  try {
-    Truth truth = solve(around, mesh, times);
-    save(stem, truth, mesh.nodes());
-    return truth;
-  } catch (const rivals::LostMotion&) {
-    return {};
-  }
+  Truth truth = levels::exact_motion(inputs.scene, mesh, times);
+  if (!truth.positions.empty()) save(stem, truth, mesh.nodes());
+  return truth;
 }
 
 } // namespace hopmesh::study

@@ -5,6 +5,7 @@
 #include "sim/input/array_file.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
+#include "sim/networks/network_files.h"
 #include "sim/networks/problems/problem.h"
 #include "sim/networks/solution.h"
 #include "sim/run/progress.h"

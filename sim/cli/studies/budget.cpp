@@ -201,7 +201,7 @@ pictures::StackedBars picture_of(const levels::Prepared& p, const Budget& budget
 int budget(const BudgetOptions& o) {
   levels::Prepared p = prepare(o.common);
   set_steps(o, p);
-  rivals::surroundings_of(p.inputs.scene); // refuses what has no truth, before the work
+  study::TruthStore::expect_known(p.inputs.scene); // refuses what has no truth, before the work
   const fs::path folder = o.out.empty() ? default_folder(p.inputs.scene.name + "-budget") : o.out;
   files::check_writable(folder, 0);
   levels::catch_interrupts();

@@ -1,8 +1,10 @@
-#include "sim/networks/network_level.h"
+#include "sim/levels/networks/network_level.h"
 
-#include "sim/networks/loaded_array.h"
+#include "sim/levels/eigen_vectors.h"
+#include "sim/levels/networks/loaded_array.h"
+#include "sim/levels/reference_check.h"
 
-namespace hopmesh::networks {
+namespace hopmesh::levels {
 
 namespace {
 
@@ -11,19 +13,19 @@ using reference::Vector;
 class ReferenceLevel : public NetworkLevel {
  public:
   ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array)
-      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)), output_(array.output),
-        V_(network.start()) {}
+      : network_(network), order_(spec::phases_of(network.topology(), array.schedule)),
+        neuron_(neuron_of(array.output)), V_(network.start()) {}
 
   spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
     reference::Relaxation end =
-        reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps, output_);
+        reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps, neuron_);
     V_ = std::move(end.V);
     return {end.sweeps, end.converged, 0, 0};
   }
   void restart() override { V_ = network_.start(); }
   double sweep() override {
     const Vector before = V_;
-    V_ = reference::relax(network_.network(), order_, V_, 0, 1, output_).V;
+    V_ = reference::relax(network_.network(), order_, V_, 0, 1, neuron_).V;
     return (V_ - before).cwiseAbs().maxCoeff();
   }
   const Vector& outputs() const override { return V_; }
@@ -31,22 +33,14 @@ class ReferenceLevel : public NetworkLevel {
  private:
   const GivenNetwork& network_;
   const reference::Order order_;
-  const spec::Output output_;
+  const reference::Neuron neuron_;
   Vector V_;
 };
 
-Vector vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-std::vector<double> values_of(const Vector& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
-
 class ArrayLevel : public NetworkLevel {
  public:
-  ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, levels::ArrayPort& port)
-      : network_(network), array_(array), loaded_(port, network.firmware(), network.topology()) {}
+  ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, ArrayPort& port)
+      : network_(network), array_(array), loaded_(port, network) {}
 
   spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
     const spec::Relaxation end =
@@ -70,16 +64,19 @@ class ArrayLevel : public NetworkLevel {
   const Vector& outputs() const override { return V_; }
   std::uint32_t clipped() const override { return loaded_.clipped(); }
 
-  std::optional<reference::Network> loaded() const override {
+  // The memories keep what was loaded, so they are read once.
+  std::optional<double> loaded_energy() override {
     if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)
       return std::nullopt;
-    return network_.network_of(loaded_.weights(), loaded_.biases());
+    if (!in_memory_) in_memory_ = network_.network_of(loaded_.weights(), loaded_.biases());
+    return reference::network_energy(*in_memory_, V_);
   }
 
  private:
   const GivenNetwork& network_;
   const spec::ArraySpec array_;
   LoadedArray loaded_;
+  std::optional<reference::Network> in_memory_;
   Vector V_;
 };
 
@@ -90,8 +87,8 @@ std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const
 }
 
 std::unique_ptr<NetworkLevel> array_level(const GivenNetwork& network, const spec::ArraySpec& array,
-                                          levels::ArrayPort& port) {
+                                          ArrayPort& port) {
   return std::make_unique<ArrayLevel>(network, array, port);
 }
 
-} // namespace hopmesh::networks
+} // namespace hopmesh::levels

@@ -4,9 +4,11 @@
 
 #include "firmware/driver.h"
 #include "sim/levels/array_port.h"
+#include "sim/levels/built_mesh.h"
 #include "sim/levels/bus_array.h"
+#include "sim/levels/networks/given_network.h"
 
-namespace hopmesh::networks {
+namespace hopmesh::levels {
 
 /// A network cell by cell, as the firmware lays it out.
 struct CellNetwork {
@@ -15,10 +17,12 @@ struct CellNetwork {
 
 class LoadedArray {
  public:
-  /// Port, mesh and topology (of one and the same network) must outlive it.
-  LoadedArray(levels::ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology);
+  /// For the networks of a mesh's steps, or for a given one: each must outlive it.
+  LoadedArray(ArrayPort& port, const BuiltMesh& mesh) : LoadedArray(port, mesh.firmware(), mesh.topology()) {}
+  LoadedArray(ArrayPort& port, const GivenNetwork& network)
+      : LoadedArray(port, network.firmware(), network.topology()) {}
 
-  /// Loads the network and relaxes it from its start. Throws as levels::check does, here and below.
+  /// Loads the network and relaxes it from its start. Throws as check() does, here and below.
   spec::Relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
   bool is_loaded() const { return driver_.bus != nullptr; }
 
@@ -34,15 +38,16 @@ class LoadedArray {
   std::uint32_t clipped() const { return driver_.clipped; } ///< weights and biases that did not fit
 
  private:
+  LoadedArray(ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology);
   /// Of what a weight or a bias was multiplied with before it was rounded.
   double unit() const { return hm_power_of_two(-driver_.shift); }
 
-  levels::ArrayPort& port_;
+  ArrayPort& port_;
   const hm_mesh& mesh_;
-  const levels::BusArray memories_;
+  const BusArray memories_;
   hm_driver driver_{};
   std::vector<std::uint32_t> buffer_;
   std::vector<double> outputs_;
 };
 
-} // namespace hopmesh::networks
+} // namespace hopmesh::levels

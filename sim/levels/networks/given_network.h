@@ -1,5 +1,5 @@
-// A network that is no mesh's: W, I and a start of somebody's own, read and judged, and as the firmware, the
-// array and the reference want it.
+// A network that is no mesh's: W, I and a start of somebody's own, as the firmware, the array and the
+// reference want it.
 #pragma once
 
 #include "firmware/network.h"
@@ -7,28 +7,14 @@
 #include "sim/files/matrix_market.h"
 #include "sim/reference/reference.h"
 
-#include <string>
 #include <vector>
 
-namespace hopmesh::networks {
-
-struct NetworkFiles {
-  std::string weights, bias,
-      start;               ///< Matrix Market; no bias: 0; no start: 0, or +1 where outputs are binary
-  bool asymmetric = false; ///< W may be so: then no proof says that energy falls
-};
+namespace hopmesh::levels {
 
 struct NetworkData {
   files::SparseMatrix W;
   std::vector<double> bias, start; ///< empty: none was named
 };
-
-/// Throws input::InputError where W is not square, or not symmetric, sizes do not match, a start lies outside
-/// the box or the network is larger than an array's windows.
-NetworkData read_network(const NetworkFiles& files);
-
-/// Outputs to start from, as many as there are neurons.
-std::vector<double> read_start(const std::string& file, std::size_t neurons);
 
 /// Owns the arrays that hm_mesh points into; it neither moves nor copies. A neuron is a cell of its own; a
 /// link joins two where W_ij or W_ji is not 0.
@@ -40,13 +26,17 @@ class GivenNetwork {
   GivenNetwork& operator=(const GivenNetwork&) = delete;
 
   const reference::Network& network() const { return network_; }
-  const reference::Vector& start() const { return start_; }
+  const Eigen::VectorXd& start() const { return start_; }
   const spec::Topology& topology() const { return topology_; }
   const hm_mesh& firmware() const { return firmware_; }
   /// W in the layout of the weight memory.
   const std::vector<double>& rows() const { return rows_; }
   std::size_t neurons() const { return topology_.cells(); }
   std::size_t weights() const { return static_cast<std::size_t>(network_.W.nonZeros()); }
+
+  /// Of outputs V: -1/2 V'WV - I'V, and how far a step of s_i / N_i can still move one of them.
+  double energy(const Eigen::VectorXd& V) const { return reference::network_energy(network_, V); }
+  double kkt_violation(const Eigen::VectorXd& V) const { return reference::kkt_violation(network_, V); }
 
   /// The network that weights in the memory's layout and biases are.
   reference::Network network_of(const std::vector<double>& rows, const std::vector<double>& bias) const;
@@ -58,10 +48,10 @@ class GivenNetwork {
 
   spec::Topology topology_;
   reference::Network network_;
-  reference::Vector start_;
+  Eigen::VectorXd start_;
   std::vector<double> rows_;
   std::vector<std::uint32_t> numbers_;
   hm_mesh firmware_{};
 };
 
-} // namespace hopmesh::networks
+} // namespace hopmesh::levels
