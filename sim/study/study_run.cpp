@@ -1,16 +1,17 @@
 #include "sim/study/study_run.h"
 
+#include "sim/files/output_file.h"
 #include "sim/input/command_words.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
-#include "sim/study/slurm.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace hopmesh::study {
@@ -82,15 +83,25 @@ bool run_in_children(const Study& study, const StudyOrder& order, const StudyFol
       levels::stop_requested);
 }
 
-// Each task is this program on its share of the points.
-bool run_in_tasks(const Study& study, const StudyOrder& order, const StudyFolder& folder) {
+// Each task of the job array is this program on its share of the points; sbatch waits for all of them.
+bool run_by_slurm(const Study& study, const StudyOrder& order, const StudyFolder& folder) {
   const std::size_t tasks = std::min(folder.missing().size(), order.workers);
   if (tasks == 0) return true;
   const std::string program = fs::read_symlink("/proc/self/exe").string();
-  run_by_slurm(fmt::format("exec {} {} {} --out {} -j 1 --share \"{}/{}\"", shell_word(program), order.verb,
-                           shell_word(fs::absolute(study.path).string()),
-                           shell_word(fs::absolute(folder.path()).string()), slurm_task, tasks),
-               tasks, folder.path());
+  const std::string where = fs::absolute(folder.path()).string();
+  const std::string task =
+      fmt::format("exec {} {} {} --out {} -j 1 --share \"$SLURM_ARRAY_TASK_ID/{}\"", shell_word(program),
+                  order.verb, shell_word(fs::absolute(study.path).string()), shell_word(where), tasks);
+  files::write_file(folder.path() / "task.sh", "#!/bin/sh\n" + task + "\n");
+  const std::string command = fmt::format(
+      "sbatch --quiet --wait --array=0-{} --ntasks=1 --cpus-per-task=1 --job-name=hopmesh "
+      "--chdir={} --output={} {} < /dev/null >&2",
+      tasks - 1, shell_word(where), shell_word(where + "/task-%a.log"), shell_word(where + "/task.sh"));
+  std::fflush(nullptr);
+  const int status = std::system(command.c_str());
+  if (status != 0)
+    fmt::print(stderr, "hopmesh: sbatch, or a task of its, ended with {}; see task-*.log in {}\n", status,
+               where);
   return folder.missing().empty();
 }
 
@@ -109,7 +120,7 @@ StudyEnd run_study(const Study& study, const StudyOrder& order) {
   levels::catch_interrupts();
   const auto began = std::chrono::steady_clock::now();
   const bool whole =
-      order.slurm ? run_in_tasks(study, order, folder) : run_in_children(study, order, folder, methods);
+      order.slurm ? run_by_slurm(study, order, folder) : run_in_children(study, order, folder, methods);
   const std::size_t missing = folder.missing().size();
   if (!whole || order.share.of > 1 || missing > 0)
     return {whole                    ? run::Outcome::finished

@@ -1,5 +1,6 @@
 #include "sim/study/size/size_report.h"
 
+#include "sim/files/csv.h"
 #include "sim/input/count_text.h"
 #include "sim/run/array_info.h"
 
@@ -11,6 +12,42 @@ namespace hopmesh::study {
 namespace {
 
 using input::grouped, input::with_noun;
+
+std::string command_of(const SizeReport& r, const Setting& setting) {
+  input::InputWords words = with_steps(r.order.words, r.order.steps);
+  for (const std::string& word : r.sizing.overrides(setting)) words.overrides.push_back(word);
+  return "hopmesh run " + text_of(words);
+}
+
+void write_row(files::CsvWriter& table, const SizeReport& r, const SizeEvidence& e) {
+  table.cell(e.what).cell(e.knob);
+  for (std::size_t knob = 0; knob < knob_count; ++knob) table.cell(r.sizing.text_of(e.setting, knob));
+  const spec::ArraySpec array = r.sizing.array_of(e.setting);
+  table.cell(run::memory_bits(*r.prepared.mesh, array).total());
+  table.cell(run::multiplier_bits(*r.prepared.mesh, array));
+  table.cell(name_of(e.row.outcome)).cell(e.row.error).cell(e.fails_by).cell(e.row.sweeps).cell(e.row.cycles);
+  table.cell(static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6));
+  table.cell(command_of(r, e.setting)).end_row();
+}
+
+void write_evidence(const SizeReport& r) {
+  std::vector<std::string> columns{"what", "knob"};
+  columns.insert(columns.end(), knob_names.begin(), knob_names.end());
+  for (const char* name : {"memory_bits", "multiplier_bits", "status", "error", "fails_by", "sweeps",
+                           "cycles", "slowest_step", "command"})
+    columns.emplace_back(name);
+  files::CsvWriter table(r.folder / "size.csv", columns);
+  for (const SizeEvidence& e : r.found.evidence) write_row(table, r, e);
+  table.commit();
+}
+
+std::string relaxation_words(const SizeReport& r) {
+  std::string words;
+  for (std::size_t knob : {k_threshold, k_sweeps})
+    if (r.found.setting[knob] != r.found.file[knob])
+      words += fmt::format(" --set {}={}", knob_names[knob], r.sizing.text_of(r.found.setting, knob));
+  return words;
+}
 
 /// The scene with the array file: what was said of the array lies in it.
 std::string file_command(const SizeReport& r) {
@@ -67,6 +104,15 @@ std::string lane_lines(const SizeReport& r) {
 
 } // namespace
 
+void write_size(const SizeReport& r) {
+  files::write_file(
+      r.folder / "size.toml",
+      fmt::format("# The least array found for {} at {} m rms from the {}. With its own sweeps:{}\n{}",
+                  r.order.words.scene, r.order.error, r.order.against, relaxation_words(r),
+                  input::array_text(r.sizing.array_of(r.found.setting))));
+  write_evidence(r);
+}
+
 std::string text_of(const SizeReport& r) {
   const SizeEvidence &size = r.found.evidence[0], &file = r.found.evidence[1];
   const scene::Scene& scene = r.prepared.inputs.scene;
@@ -75,7 +121,7 @@ std::string text_of(const SizeReport& r) {
                   with_noun(static_cast<std::uint64_t>(scene.motion.steps), "step"));
   if (r.order.against == size_judges().back())
     text += fmt::format("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
-                        r.target.reached, r.target.floor);
+                        r.reached, r.floor);
   text += knob_lines(r) + lane_lines(r);
   text += fmt::format("Formats tried: {}; {} met the error, {} of them with less silicon than this\n",
                       r.found.tried, r.found.met, r.found.cheaper);

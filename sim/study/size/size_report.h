@@ -3,7 +3,6 @@
 
 #include "sim/study/size/size.h"
 #include "sim/study/size/size_search.h"
-#include "sim/study/size/size_target.h"
 
 namespace hopmesh::study {
 
@@ -12,13 +11,11 @@ struct SizeReport {
   const SizeOrder& order;
   const levels::Prepared& prepared;
   const Sizing& sizing;
-  const SizeTarget& target;
   const SizeFound& found;
   const std::filesystem::path& folder;
+  double reached, floor; ///< of the truth: how near double itself comes, and how far it is known, m
 };
 
-/// The words that ask for the least relaxation beside the least array; "" where it is the scene's own.
-std::string relaxation_words(const SizeReport& report);
 /// size.toml, the array, and size.csv, the evidence.
 void write_size(const SizeReport& report);
 /// A few lines, with the commands that show the size.
