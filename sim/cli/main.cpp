@@ -3,7 +3,7 @@
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
 #include "sim/cli/verbs.h"
-#include "sim/files/output_file.h"
+#include "sim/run/write_error.h"
 #include "version.h"
 
 #include <cstdlib>
@@ -44,7 +44,7 @@ int program(int argc, char** argv) {
                one_line(cli::usage_sentence(app, e)));
   } catch (const input::InputError& e) {
     fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
-  } catch (const files::WriteError& e) {
+  } catch (const run::WriteError& e) {
     fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
   }
   return cli::bad_input;

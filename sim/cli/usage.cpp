@@ -2,8 +2,6 @@
 
 #include "sim/input/input_error.h"
 
-#include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <regex>
 
@@ -89,27 +87,6 @@ std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error
                       fmt::format(fmt::runtime(t.expected), flag, other, words));
     }
   return theirs; // a check of ours has said it already
-}
-
-CLI::Validator number_in(double least, double most) {
-  const auto judge = [=](const std::string& text) {
-    double number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, number);
-    if (failure == std::errc() && stop == end && number >= least && number <= most) return std::string();
-    return fmt::format("found {}, expected a number from {} to {}", text, least, most);
-  };
-  return CLI::Validator(judge, "");
-}
-
-CLI::Validator one_name_of(const std::vector<std::string>& names) {
-  const auto judge = [=](const std::string& text) {
-    if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
-    const std::string nearest = input::nearest_name(text, names);
-    return fmt::format("found {}, expected {}{}", text, fmt::join(names, ", "),
-                       nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest));
-  };
-  return CLI::Validator(judge, "");
 }
 
 } // namespace hopmesh::cli

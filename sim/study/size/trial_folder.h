@@ -3,7 +3,7 @@
 
 #include "sim/run/outcome.h"
 #include "sim/study/safe_folder.h"
-#include "sim/study/sizing.h"
+#include "sim/study/size/sizing.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include "sim/run/progress.h"
 #include "sim/run/snapshots.h"
-#include "sim/study/trial_folder.h"
+#include "sim/study/size/trial_folder.h"
 
 namespace hopmesh::study {
 

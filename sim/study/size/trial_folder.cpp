@@ -1,4 +1,4 @@
-#include "sim/study/trial_folder.h"
+#include "sim/study/size/trial_folder.h"
 
 #include "sim/files/csv.h"
 #include "sim/input/input_error.h"

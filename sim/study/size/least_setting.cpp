@@ -1,4 +1,4 @@
-#include "sim/study/least_setting.h"
+#include "sim/study/size/least_setting.h"
 
 #include <algorithm>
 

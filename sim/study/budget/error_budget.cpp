@@ -1,4 +1,4 @@
-#include "sim/study/error_budget.h"
+#include "sim/study/budget/error_budget.h"
 
 namespace hopmesh::study {
 

@@ -5,7 +5,7 @@
 #include "sim/levels/array_port.h"
 #include "sim/levels/built_mesh.h"
 #include "sim/scene/scene_file.h"
-#include "sim/study/least_setting.h"
+#include "sim/study/size/least_setting.h"
 
 namespace hopmesh::study {
 

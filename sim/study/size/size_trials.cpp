@@ -1,4 +1,4 @@
-#include "sim/study/size_trials.h"
+#include "sim/study/size/size_trials.h"
 
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"

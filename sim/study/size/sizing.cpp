@@ -1,4 +1,4 @@
-#include "sim/study/sizing.h"
+#include "sim/study/size/sizing.h"
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/run/array_info.h"

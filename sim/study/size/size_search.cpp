@@ -1,4 +1,4 @@
-#include "sim/study/size_search.h"
+#include "sim/study/size/size_search.h"
 
 #include <algorithm>
 #include <fmt/format.h>

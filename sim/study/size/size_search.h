@@ -2,7 +2,7 @@
 // meets the error; then threshold and sweeps of that array; then lanes.
 #pragma once
 
-#include "sim/study/size_trials.h"
+#include "sim/study/size/size_trials.h"
 
 namespace hopmesh::study {
 
