@@ -1,4 +1,4 @@
-// A race of solvers as solvers.csv and solvers.svg.
+// All solvers beside each other, as solvers.csv and solvers.svg.
 #include "sim/files/csv.h"
 #include "sim/networks/solved_step.h"
 #include "sim/pictures/svg_chart.h"
