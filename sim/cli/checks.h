@@ -14,7 +14,7 @@ CLI::Validator number_in(double least, double most);
 CLI::Validator positive_number();
 /// A number above 0 and below 1.
 CLI::Validator share();
-/// One of a few names.
+/// A name out of a few.
 CLI::Validator one_name_of(const std::vector<std::string>& names);
 
 /// Throws input::InputError for a name that is none of `names`; `flag` is where it stood.

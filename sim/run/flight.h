@@ -5,7 +5,7 @@
 
 namespace hopmesh::run {
 
-/// What is asked of a run. One that goes on has level, command and check from its checkpoint.
+/// What is asked of a run. A resumed run has level, command and check from its checkpoint.
 struct FlightPlan {
   const levels::Level* level = nullptr;
   std::string command;     ///< that repeats it
