@@ -1,5 +1,6 @@
 #include "sim/cli/options.h"
 
+#include "sim/files/standard_streams.h"
 #include "sim/study/study_points.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::string words_of(const CommonOptions& options) {
 }
 
 void tell(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "hopmesh: note: {}\n", note);
+  for (const std::string& note : notes) files::say(fmt::format("hopmesh: note: {}\n", note));
 }
 
 levels::Prepared prepare(const CommonOptions& options) {
