@@ -75,7 +75,7 @@ struct Avx512 {
   // A vector of words is read and written word by word as far as other threads can see. The language has no
   // name for that, so the thread sanitizer is told not to look.
   [[gnu::no_sanitize("thread")]] static Words load_links(const std::uint32_t* at) {
-    return *reinterpret_cast<const __m512i_u*>(at);
+    return _mm512_loadu_si512(at);
   }
   static void store_links(std::uint32_t* at, Words x) { store_words(at, x); }
   static Words pick(const std::uint32_t* from, const std::uint8_t* lane) {
