@@ -5,6 +5,9 @@
 
 namespace hopmesh::spec {
 
+/// Far above what an array is built for, far below what fills a machine's memory by a slip of the pen.
+inline constexpr std::int64_t most_cells = 4'000'000;
+
 /// A rule that an array broke: the key as scene and array files write it, what stands there, what should.
 struct SpecFault {
   std::string key, found, expected;
@@ -86,8 +89,8 @@ inline ArraySpec prescaled_array() {
   ArraySpec a;
   a.name = "prescaled";
   a.normaliser = Normaliser::prescaled;
-  a.formats.weight = NumberFormat{16, 1, Rounding::trn_zero, Overflow::sat};
-  a.formats.bias = NumberFormat{16, 1, Rounding::trn_zero, Overflow::sat};
+  a.formats.weight = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
+  a.formats.bias = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
   return a;
 }
 

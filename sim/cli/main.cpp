@@ -3,9 +3,9 @@
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
 #include "sim/cli/verbs.h"
-#include "sim/files/output_file.h"
 #include "sim/files/standard_streams.h"
 #include "sim/run/children.h"
+#include "sim/run/write_error.h"
 #include "version.h"
 
 #include <cstdlib>
@@ -72,7 +72,7 @@ int guarded(int argc, char** argv) {
     return whole_program(argc, argv);
   } catch (const input::InputError& e) {
     return told(e.what());
-  } catch (const files::WriteError& e) {
+  } catch (const run::WriteError& e) {
     return told(e.what());
   } catch (const run::Refused& e) {
     return told(e.what());

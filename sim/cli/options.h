@@ -1,39 +1,36 @@
-// What the verbs have in common: exit codes, the scene with its array and overrides, checks of flags.
+// What the verbs have in common: exit codes, the scene with its array and overrides, where results go.
 #pragma once
 
-#include "sim/cli/number_checks.h"
+#include "sim/cli/checks.h"
+#include "sim/input/command_words.h"
 #include "sim/levels/prepared.h"
+#include "sim/run/outcome.h"
+
+#include <filesystem>
 
 namespace hopmesh::cli {
 
 /// Exit codes of the program.
 enum Exit : int { done = 0, differs = 1, bad_input = 2, interrupted = 130 };
 
-struct CommonOptions {
-  std::string scene, array;
-  std::vector<std::string> overrides;
-};
+/// Of a program whose work ended so.
+int exit_of(run::Outcome outcome);
 
 /// SCENE, --array, --set.
-void add_common(CLI::App& verb, CommonOptions& options);
-/// SCENE and the flags of add_common as a shell takes them back.
-std::string words_of(const CommonOptions& options);
-/// A word in quotes where a shell would ask for them.
-std::string shell_word(const std::string& word);
-
-/// out/NAME; a slash in a name must not lead elsewhere.
-std::string default_folder(std::string name);
+void add_common(CLI::App& verb, input::InputWords& words);
 
 /// A line each on stderr, about what is no mistake.
 void tell(const std::vector<std::string>& notes);
 
 /// Reads and checks everything, the array's rules for this very mesh included, and tells which keys have no
 /// effect. Throws input::InputError.
-levels::Prepared prepare(const CommonOptions& options);
+levels::Prepared prepare(const input::InputWords& words);
+/// Throws input::InputError for a --step that the scene has not.
+void check_step(std::int64_t step, const levels::Prepared& prepared);
 
-/// Throws input::InputError for a name that is none of `names`; `flag` is where it stood.
-void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
-/// Throws input::InputError for a name that no problem has; `where` it stood.
-void check_problem(const std::string& name, const std::string& where);
+/// What --out says; where it says nothing, out/NAME. A slash in a name must not lead elsewhere.
+std::filesystem::path results_folder(const std::string& out, std::string name);
+/// What -j says; where it says nothing, as many as processors.
+std::size_t workers_of(std::int64_t asked);
 
 } // namespace hopmesh::cli

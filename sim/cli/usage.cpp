@@ -1,12 +1,7 @@
 #include "sim/cli/usage.h"
 
 #include "sim/input/input_error.h"
-#include "sim/input/number.h"
-#include "sim/input/utf8.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <regex>
 
@@ -92,55 +87,6 @@ std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error
                       fmt::format(fmt::runtime(t.expected), flag, other, words));
     }
   return theirs; // a check of ours has said it already
-}
-
-namespace {
-
-/// Folders and waves are only opened under their name; every other word gets into files of results.
-bool is_only_a_path(const CLI::Option& option) {
-  return option.check_lname("out") || option.check_lname("resume") || option.check_lname("wave");
-}
-
-std::string fault_of(const CLI::Option& option, const std::string& text) {
-  const bool flag = !option.get_positional();
-  if (flag && text.empty()) return "found an empty value, expected " + option.get_description();
-  if (!is_only_a_path(option) && !input::is_utf8(text))
-    return fmt::format("found {}, expected UTF-8", input::in_quotes(text));
-  double number = 0;
-  const bool real = option.get_type_name().rfind("FLOAT", 0) == 0;
-  if (real && input::parse_number(text, number) && !std::isfinite(number))
-    return fmt::format("found {}, expected a finite number", text);
-  return "";
-}
-
-} // namespace
-
-void check_values(CLI::App& verb) {
-  for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return o->get_type_size() > 0; })) {
-    const auto judge = [option](const std::string& text) { return fault_of(*option, text); };
-    option->check(CLI::Validator(judge, ""));
-  }
-}
-
-CLI::Validator number_in(double least, double most) {
-  const auto judge = [=](const std::string& text) {
-    double number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, number);
-    if (failure == std::errc() && stop == end && number >= least && number <= most) return std::string();
-    return fmt::format("found {}, expected a number from {} to {}", text, least, most);
-  };
-  return CLI::Validator(judge, "");
-}
-
-CLI::Validator one_name_of(const std::vector<std::string>& names) {
-  const auto judge = [=](const std::string& text) {
-    if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
-    const std::string nearest = input::nearest_name(text, names);
-    return fmt::format("found {}, expected {}{}", text, fmt::join(names, ", "),
-                       nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest));
-  };
-  return CLI::Validator(judge, "");
 }
 
 } // namespace hopmesh::cli

@@ -1,6 +1,6 @@
 #include "sim/cli/verbs.h"
 
-#include "sim/cli/usage.h"
+#include "sim/cli/checks.h"
 
 namespace hopmesh::cli {
 
@@ -20,23 +20,23 @@ struct Verb {
 
 constexpr Verb verbs[] = {
     {add_run, "Motions"},
-    {add_compare, "Motions"}, //
+    {add_compare, "Motions"},
     {add_info, "Arrays"},
     {add_vectors, "Arrays"},
-    {add_fuzz, "Arrays"}, //
+    {add_fuzz, "Arrays"},
     {add_sweep, "Studies"},
     {add_chart, "Studies"},
-    {add_stability, "Studies"}, //
+    {add_stability, "Studies"},
     {add_budget, "Studies"},
-    {add_size, "Studies"}, //
+    {add_size, "Studies"},
     {add_network, "Networks"},
     {add_solve, "Networks"},
-    {add_problem, "Networks"}, //
-    {add_solvers, "Networks"}, //
+    {add_problem, "Networks"},
+    {add_solvers, "Networks"},
     {add_scenes, "What there is"},
     {add_presets, "What there is"},
     {add_levels, "What there is"},
-    {add_studies, "What there is"}, //
+    {add_studies, "What there is"},
     {add_problems, "What there is"},
     {add_help, "What there is"},
 };

@@ -1,6 +1,5 @@
 #include "sim/cosim/compare.h"
 
-#include "firmware/registers.h"
 #include "sim/input/count_text.h"
 #include "sim/run/run_totals.h"
 
@@ -87,23 +86,21 @@ class Round {
         const levels::BuiltMesh& mesh, const spec::ArraySpec& array)
       : ready_(ready), rows_(rows), mesh_(mesh) {
     for (std::size_t k = 0; k < ready.size(); ++k)
-      if (ready[k].array) fixed_.push_back(k), buses_.push_back(&ready[k].port->bus());
+      if (ready[k].array) fixed_.push_back(k), arrays_.emplace_back(ready[k].port->bus(), mesh.topology());
     if (fixed_.size() < 2) return;
-    const BusArray first(*buses_[0], mesh.topology());
-    run_sweeps_ = first.read(HM_REG_SWEEPS);
-    run_cycles_ = first.read_wide(HM_REG_CYCLES_LO);
-    job_ = loaded_job(*buses_[0], array, mesh.topology(), of(0).array->start_raw());
+    run_ = arrays_[0].last_run();
+    job_ = loaded_job(of(0).port->bus(), array, mesh.topology(), of(0).array->start_raw());
   }
 
   std::size_t pairs() const { return fixed_.empty() ? 0 : fixed_.size() - 1; }
-  std::uint32_t sweeps() const { return run_sweeps_; }
+  std::uint32_t sweeps() const { return run_.sweeps; }
 
   /// Nothing if every level gave the same answer, and gives it again sweep by sweep.
   std::optional<Difference> judge() {
     for (std::size_t k = 1; k < fixed_.size(); ++k)
       if (auto d = difference_of_answers(k)) return d;
     if (pairs() == 0) return std::nullopt;
-    const Lockstep l = run_in_lockstep(buses_, job_, run_sweeps_);
+    const Lockstep l = run_in_lockstep(arrays_, job_, run_.sweeps);
     if (!l.where && l.outputs[0] == of(0).array->rest_raw()) return std::nullopt;
     Difference d = between(l.where ? l.other : 0);
     if (!l.where) d.level[1] += " sweep by sweep";
@@ -115,7 +112,7 @@ class Round {
   const ReadyLevel& of(std::size_t k) const { return ready_[fixed_[k]]; }
   Difference between(std::size_t k) const {
     Difference d = difference(of(0), rows_[fixed_[0]], of(k), rows_[fixed_[k]]);
-    d.cycles_before = rows_[fixed_[0]].cycles - run_cycles_;
+    d.cycles_before = rows_[fixed_[0]].cycles - run_.cycles;
     return d;
   }
 
@@ -123,8 +120,8 @@ class Round {
   std::optional<Difference> difference_of_answers(std::size_t k) const {
     const levels::StepRow &a = rows_[fixed_[0]], &b = rows_[fixed_[k]];
     const bool same_codes = of(0).array->rest_raw() == of(k).array->rest_raw();
-    const Buses two{buses_[0], buses_[k]};
-    const std::string memory = memory_difference(two, mesh_.topology());
+    const Arrays two{arrays_[0], arrays_[k]};
+    const std::string memory = memory_difference(two);
     if (same_codes && a.sweeps == b.sweeps && a.cycles == b.cycles && memory.empty()) return std::nullopt;
     Difference d = between(k);
     d.memory = memory;
@@ -136,10 +133,9 @@ class Round {
   const std::vector<levels::StepRow>& rows_;
   const levels::BuiltMesh& mesh_;
   std::vector<std::size_t> fixed_;
-  Buses buses_;
+  Arrays arrays_;
   ArrayJob job_;
-  std::uint32_t run_sweeps_ = 0;
-  std::uint64_t run_cycles_ = 0;
+  spec::Relaxation run_; ///< the first one's
 };
 
 // Every fixed level against the first of them.

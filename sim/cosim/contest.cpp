@@ -1,6 +1,5 @@
 #include "sim/cosim/contest.h"
 
-#include "firmware/registers.h"
 #include "sim/cosim/divergence.h"
 
 #include <algorithm>
@@ -8,16 +7,14 @@
 
 namespace hopmesh::cosim {
 
-Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep) {
-  const BusArray array(bus, job.topology);
+Answer ask(const BusArray& array, const ArrayJob& job, bool every_sweep) {
   Answer a;
-  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4)
-    a.capabilities.push_back(array.read(at));
+  a.capabilities = array.capabilities();
   load(array, job);
   a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();
   a.end = array.run(job.threshold, job.max_sweeps);
   a.output = array.outputs();
-  a.bus_cycles = array.read_wide(HM_REG_BUS_CYCLES_LO);
+  a.bus_cycles = array.bus_cycles();
   if (!every_sweep) return a;
   array.put_outputs(job.start);
   for (std::uint32_t sweep = 0; sweep < a.end.sweeps; ++sweep) {
@@ -85,10 +82,13 @@ Mismatch contest(const Ways& ways, const ArrayJob& job, const MadeAhead& ahead, 
     made = ways[k].make(job.array, job.topology);
     return made.get();
   };
-  const Answer first = ask(array_of(0)->bus(), job, every_sweep);
+  const auto answer = [&](levels::ArrayPort& array) {
+    return ask(BusArray(array.bus(), job.topology), job, every_sweep);
+  };
+  const Answer first = answer(*array_of(0));
   for (std::size_t k = 1; k < ways.size(); ++k)
     if (levels::ArrayPort* array = array_of(k)) {
-      const std::string text = unequal(first, ask(array->bus(), job, every_sweep), job);
+      const std::string text = unequal(first, answer(*array), job);
       if (!text.empty()) return {k, ways[0].name + " and " + ways[k].name + ": " + text};
     }
   return {};

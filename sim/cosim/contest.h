@@ -19,7 +19,7 @@ struct Answer {
   std::vector<Codes> outputs; ///< after every sweep; empty unless asked for
   std::vector<spec::Relaxation> sweeps;
 };
-Answer ask(const hm_bus& bus, const ArrayJob& job, bool every_sweep);
+Answer ask(const BusArray& array, const ArrayJob& job, bool every_sweep);
 
 /// In words, where two answers differ first; "" where they do not.
 std::string unequal(const Answer& a, const Answer& b, const ArrayJob& job);

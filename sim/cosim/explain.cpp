@@ -20,7 +20,7 @@ FirstDifference in_mesh(const Divergence& d, const levels::BuiltMesh& mesh, cons
   return f;
 }
 
-std::optional<FirstDifference> first_difference(const Buses& two, const levels::BuiltMesh& mesh,
+std::optional<FirstDifference> first_difference(const Arrays& two, const levels::BuiltMesh& mesh,
                                                 const ArrayJob& job, std::uint32_t sweeps) {
   auto where = run_in_lockstep(two, job, sweeps).where;
   if (!where) where = part_from_start(two, job, sweeps);

@@ -28,7 +28,7 @@ FirstDifference in_mesh(const Divergence& divergence, const levels::BuiltMesh& m
 
 /// Where two arrays part on a job that both have loaded: sweep by sweep, then, if that shows nothing, by
 /// longer and longer runs. Nothing if they never do. The arrays must be idle.
-std::optional<FirstDifference> first_difference(const Buses& two, const levels::BuiltMesh& mesh,
+std::optional<FirstDifference> first_difference(const Arrays& two, const levels::BuiltMesh& mesh,
                                                 const ArrayJob& job, std::uint32_t sweeps);
 
 /// Several lines: sweep, cycle, node, neuron, both codes, and every input one update earlier.

@@ -1,6 +1,9 @@
 #include "sim/cosim/finding.h"
 
+#include "sim/cosim/shrink.h"
+#include "sim/levels/interrupt.h"
 #include "sim/run/children.h"
+#include "sim/run/progress.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +28,7 @@ namespace {
 
 void comment_answers(VectorWriter& file, const Way& way, const ArrayJob& job, levels::ArrayPort* array) {
   if (!array) return;
-  const Answer a = ask(array->bus(), job, true);
+  const Answer a = ask(BusArray(array->bus(), job.topology), job, true);
   file.comment(fmt::format("{}: end {} {:d} {} {}", way.name, a.end.sweeps, a.end.converged,
                            a.end.largest_change, a.end.cycles));
   for (std::size_t k = 0; k < a.outputs.size(); ++k)
@@ -55,6 +58,24 @@ void write_finding(const std::filesystem::path& path, const VectorCase& a_case, 
   for (const std::string& line : comments) file.comment(line);
   file.add(a_case, nullptr);
   file.commit();
+}
+
+KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, std::uint64_t seed,
+                         const Finding& finding, const std::vector<std::string>& comments) {
+  const Ways two = involved(ways, finding);
+  const ArrayJob whole = campaign_case(seed, finding.number).job;
+  run::CountProgress progress("smaller cases tried", 0);
+  std::uint64_t tried = 0;
+  const Differs still = [&](const ArrayJob& job) {
+    progress.count(++tried);
+    return !levels::stop_requested && differs_in_child(two, job);
+  };
+  const bool repeats = still(whole);
+  const KeptFinding kept{repeats ? shrink(whole, still) : whole, repeats};
+  std::vector<std::string> lines = comments;
+  lines.insert(lines.begin(), finding.text);
+  write_finding(path, {fmt::format("seed {} case {}", seed, finding.number), kept.job}, two, lines);
+  return kept;
 }
 
 } // namespace hopmesh::cosim

@@ -18,4 +18,13 @@ Ways involved(const Ways& ways, const Finding& finding);
 void write_finding(const std::filesystem::path& path, const VectorCase& a_case, const Ways& ways,
                    const std::vector<std::string>& comments);
 
+struct KeptFinding {
+  ArrayJob job; ///< the smallest that still differs
+  bool repeats; ///< else the case by itself does not differ, and is kept as it is
+};
+/// The case of a finding made small, until the user stops that, and written with `comments` below what
+/// differs. Throws files::WriteError.
+KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, std::uint64_t seed,
+                         const Finding& finding, const std::vector<std::string>& comments);
+
 } // namespace hopmesh::cosim

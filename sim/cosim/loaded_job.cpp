@@ -1,7 +1,5 @@
 #include "sim/cosim/loaded_job.h"
 
-#include "firmware/registers.h"
-
 namespace hopmesh::cosim {
 
 ArrayJob loaded_job(const hm_bus& bus, const spec::ArraySpec& array, const spec::Topology& topology,
@@ -12,8 +10,8 @@ ArrayJob loaded_job(const hm_bus& bus, const spec::ArraySpec& array, const spec:
           there.weights(),
           there.biases(),
           std::move(start),
-          there.read(HM_REG_THRESHOLD),
-          there.read(HM_REG_MAX_SWEEPS)};
+          there.threshold(),
+          there.max_sweeps()};
 }
 
 } // namespace hopmesh::cosim

@@ -8,7 +8,7 @@ namespace hopmesh::cosim {
 namespace {
 
 // What every array made of one more sweep; true while all agree.
-bool one_sweep(const std::vector<BusArray>& arrays, const ArrayJob& job, Lockstep& l) {
+bool one_sweep(const Arrays& arrays, const ArrayJob& job, Lockstep& l) {
   const Codes before = l.outputs[0];
   for (std::size_t k = 0; k < arrays.size(); ++k) {
     arrays[k].one_sweep();
@@ -28,9 +28,7 @@ std::string first_unequal(const char* window, const Codes& a, const Codes& b) {
 
 } // namespace
 
-Lockstep run_in_lockstep(const Buses& buses, const ArrayJob& job, std::uint32_t sweeps) {
-  std::vector<BusArray> arrays;
-  for (const hm_bus* bus : buses) arrays.emplace_back(*bus, job.topology);
+Lockstep run_in_lockstep(const Arrays& arrays, const ArrayJob& job, std::uint32_t sweeps) {
   Lockstep l;
   for (const BusArray& array : arrays) {
     array.put_outputs(job.start);
@@ -40,16 +38,14 @@ Lockstep run_in_lockstep(const Buses& buses, const ArrayJob& job, std::uint32_t 
   return l;
 }
 
-std::optional<Divergence> part_from_start(const Buses& two, const ArrayJob& job, std::uint32_t sweeps) {
-  const BusArray a(*two[0], job.topology), b(*two[1], job.topology);
+std::optional<Divergence> part_from_start(const Arrays& two, const ArrayJob& job, std::uint32_t sweeps) {
   Codes before = job.start;
   for (std::uint32_t sweep = 1; sweep <= sweeps; ++sweep) {
     Codes after[2];
-    for (int k = 0; k < 2; ++k) {
-      const BusArray& array = k == 0 ? a : b;
-      array.put_outputs(job.start);
-      array.run(job.threshold, sweep);
-      after[k] = array.outputs();
+    for (std::size_t k = 0; k < 2; ++k) {
+      two[k].put_outputs(job.start);
+      two[k].run(job.threshold, sweep);
+      after[k] = two[k].outputs();
     }
     if (after[0] != after[1]) return locate(job, sweep, before, after[0], after[1]);
     before = std::move(after[0]);
@@ -57,10 +53,9 @@ std::optional<Divergence> part_from_start(const Buses& two, const ArrayJob& job,
   return std::nullopt;
 }
 
-std::string memory_difference(const Buses& two, const spec::Topology& topology) {
-  const BusArray a(*two[0], topology), b(*two[1], topology);
-  const std::string weights = first_unequal("WEIGHT", a.weights(), b.weights());
-  return weights.empty() ? first_unequal("BIAS", a.biases(), b.biases()) : weights;
+std::string memory_difference(const Arrays& two) {
+  const std::string weights = first_unequal("WEIGHT", two[0].weights(), two[1].weights());
+  return weights.empty() ? first_unequal("BIAS", two[0].biases(), two[1].biases()) : weights;
 }
 
 } // namespace hopmesh::cosim

@@ -7,7 +7,7 @@
 
 namespace hopmesh::cosim {
 
-using Buses = std::vector<const hm_bus*>;
+using Arrays = std::vector<BusArray>;
 
 struct Lockstep {
   std::uint64_t sweeps = 0;        ///< after which all arrays were equal
@@ -18,13 +18,13 @@ struct Lockstep {
 
 /// `sweeps` runs of one sweep each from the job's start, on memories as they stand: between two sweeps an
 /// array has no state but V, so what it does here is what it does in one run. The arrays must be idle.
-Lockstep run_in_lockstep(const Buses& buses, const ArrayJob& job, std::uint32_t sweeps);
+Lockstep run_in_lockstep(const Arrays& arrays, const ArrayJob& job, std::uint32_t sweeps);
 
 /// Where two arrays part whose fault depends on how long a run has lasted: the job from its start,
 /// one sweep further each time. Quadratic.
-std::optional<Divergence> part_from_start(const Buses& two, const ArrayJob& job, std::uint32_t sweeps);
+std::optional<Divergence> part_from_start(const Arrays& two, const ArrayJob& job, std::uint32_t sweeps);
 
 /// "WEIGHT word 7: 12 and 13", where the memories of two arrays first differ; "" where they are equal.
-std::string memory_difference(const Buses& two, const spec::Topology& topology);
+std::string memory_difference(const Arrays& two);
 
 } // namespace hopmesh::cosim

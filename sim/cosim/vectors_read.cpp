@@ -5,7 +5,6 @@
 #include "sim/input/input_error.h"
 #include "sim/input/number.h"
 #include "sim/input/whole_file.h"
-#include "sim/scene/limits.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -177,7 +176,7 @@ void VectorReader::read_links(spec::Topology& t) {
     if (w.size() != 1) fail(in_quotes(text_), fmt::format("{} N", key));
     return number(w[0], least, most, key);
   };
-  const std::int64_t cells = one("cells", 1, scene::most_nodes);
+  const std::int64_t cells = one("cells", 1, spec::most_cells);
   t.neurons_per_cell = static_cast<int>(one("neurons_per_cell", 1, 3));
   t.first_link = {0};
   std::vector<int> lines;

@@ -1,6 +1,5 @@
 #include "sim/levels/array_mover.h"
 
-#include "firmware/registers.h"
 #include "sim/levels/bus_array.h"
 
 #include <algorithm>
@@ -96,7 +95,7 @@ StepRow ArrayMover::advance() {
 }
 
 std::uint64_t ArrayMover::bus_cycles() const {
-  return BusArray(port_.bus(), mesh_.topology()).read_wide(HM_REG_BUS_CYCLES_LO);
+  return BusArray(port_.bus(), mesh_.topology()).bus_cycles();
 }
 
 std::vector<SignalRange> ArrayMover::ranges() const {

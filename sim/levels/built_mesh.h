@@ -33,6 +33,26 @@ class BuiltMesh {
     return all;
   }
 
+  /// [cells * components] from a vector over [nodes * components].
+  template <typename Vector> std::vector<double> by_cell(const Vector& by_node) const {
+    const std::size_t n = components();
+    std::vector<double> of_cells(cells() * n);
+    for (std::size_t k = 0; k < of_cells.size(); ++k) of_cells[k] = by_node[node_of_cell_[k / n] * n + k % n];
+    return of_cells;
+  }
+
+  /// use(place in the weight memory, row, column) for every weight; rows and columns over [nodes *
+  /// components].
+  template <typename Use> void each_weight(Use use) const {
+    const std::size_t n = components();
+    for (std::size_t c = 0; c < cells(); ++c)
+      for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t t = 0; t < topology_.taps(c); ++t) {
+          const std::size_t from = t < n ? c : topology_.link_to[topology_.first_link[c] + t / n - 1];
+          use(topology_.row_offset(c, p) + t, node_of_cell_[c] * n + p, node_of_cell_[from] * n + t % n);
+        }
+  }
+
  private:
   void number_cells();
   void find_links();

@@ -61,8 +61,30 @@ spec::Relaxation BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps
   write(HM_REG_CONTROL, HM_CONTROL_START);
   check(bus_.wait(bus_.context));
   write(HM_REG_IRQ_STATUS, HM_IRQ_DONE);
+  return last_run();
+}
+
+spec::Relaxation BusArray::last_run() const {
   return {read(HM_REG_SWEEPS), (read(HM_REG_STATUS) & HM_STATUS_CONVERGED) != 0, read(HM_REG_LARGEST_CHANGE),
           read_wide(HM_REG_CYCLES_LO)};
+}
+
+std::uint32_t BusArray::threshold() const {
+  return read(HM_REG_THRESHOLD);
+}
+
+std::uint32_t BusArray::max_sweeps() const {
+  return read(HM_REG_MAX_SWEEPS);
+}
+
+std::vector<std::uint32_t> BusArray::capabilities() const {
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4) words.push_back(read(at));
+  return words;
+}
+
+std::uint64_t BusArray::bus_cycles() const {
+  return read_wide(HM_REG_BUS_CYCLES_LO);
 }
 
 Codes BusArray::weights() const {

@@ -18,16 +18,24 @@ class BusArray {
   /// From where V is, until at rest or `max_sweeps`.
   spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
   spec::Relaxation one_sweep() const { return run(0, 1); }
+  /// What the registers tell of the last run, and what it was started with.
+  spec::Relaxation last_run() const;
+  std::uint32_t threshold() const;
+  std::uint32_t max_sweeps() const;
 
   Codes weights() const;
   Codes biases() const;
   Codes outputs() const;
+  /// Every capability register, in the order of their addresses.
+  std::vector<std::uint32_t> capabilities() const;
+  /// That the host has held the bus until now.
+  std::uint64_t bus_cycles() const;
+
+ private:
   std::uint32_t read(std::uint32_t address) const;
   /// A register of two words; `low` is the address of the lower one.
   std::uint64_t read_wide(std::uint32_t low) const;
   void write(std::uint32_t address, std::uint32_t word) const;
-
- private:
   Codes read_window(std::uint32_t base, std::size_t count) const;
   void write_window(std::uint32_t base, const Codes& codes) const;
 

@@ -1,6 +1,7 @@
 #include "sim/levels/reference_check.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/levels/eigen_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,32 +19,33 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule) {
 }
 
 reference::State state_of(const StepState& state) {
-  const auto vector = [](const std::vector<double>& values) -> Vector {
-    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-  };
   reference::State result;
-  result.position = vector(state.position);
-  result.velocity = vector(state.velocity);
-  result.acceleration = vector(state.acceleration);
-  result.previous_position = vector(state.previous_position);
-  result.previous_velocity = vector(state.previous_velocity);
+  result.position = vector_of(state.position);
+  result.velocity = vector_of(state.velocity);
+  result.acceleration = vector_of(state.acceleration);
+  result.previous_position = vector_of(state.previous_position);
+  result.previous_velocity = vector_of(state.previous_velocity);
   result.step = state.step;
   return result;
 }
 
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
-                   spec::Output output) {
+                   reference::Neuron neuron) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
-    return reference::relax(network, order, from, 0, sweeps, output).V;
+    return reference::relax(network, order, from, 0, sweeps, neuron).V;
   };
   const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
   const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
   return first > 0 && away < first / 2 ? last / first : 0;
 }
 
+reference::Neuron neuron_of(spec::Output output) {
+  return output == spec::Output::binary ? reference::Neuron::binary : reference::Neuron::modified;
+}
+
 reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::StepParameters motion = reference::step_parameters(scene);
-  motion.output = array.output;
+  motion.neuron = neuron_of(array.output);
   return motion;
 }
 
@@ -60,8 +62,7 @@ void ReferenceCheck::begin(const StepState& state, const double* node_force) {
 }
 
 Vector ReferenceCheck::by_node(const std::vector<double>& by_cell) const {
-  const auto all = mesh_.by_node(by_cell);
-  return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
+  return vector_of(mesh_.by_node(by_cell));
 }
 
 reference::Network ReferenceCheck::expanded(const std::vector<double>& start, double scale,
@@ -78,7 +79,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   Vector V0;
   const reference::Network network = expanded(start, scale, V0);
   const Vector wanted =
-      reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps, motion_.output).V;
+      reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps, motion_.neuron).V;
   const std::size_t neurons = start.size();
   const Vector V = by_node(std::vector<double>(built.output, built.output + neurons));
   ReferenceError error;
@@ -88,28 +89,22 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const double fall = reference::network_energy(network, V0) - rest;
   if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
   error.network = network_difference(network, built);
-  if (!rested) error.alternation = alternation(network, order_, V, motion_.output);
+  if (!rested) error.alternation = alternation(network, order_, V, motion_.neuron);
   return error;
 }
 
 // The firmware's rows against the reference's matrix, entry by entry.
 double ReferenceCheck::network_difference(const reference::Network& network, const hm_network& built) const {
-  const hm_mesh& m = mesh_.firmware();
   double largest = 0, difference = 0;
   const auto compare = [&](double wanted, double found) {
     largest = std::max(largest, std::fabs(wanted));
     difference = std::max(difference, std::fabs(wanted - found));
   };
-  for (std::uint32_t c = 0; c < m.cells; ++c)
-    for (std::uint32_t p = 0; p < m.components; ++p) {
-      const std::uint32_t row = m.node_of_cell[c] * m.components + p;
-      compare(network.I[row], built.bias[c * m.components + p]);
-      const double* weight = built.weight + hm_row_offset(&m, c, p);
-      for (std::uint32_t t = 0; t < hm_row_length(&m, c); ++t) {
-        const std::uint32_t source = t < m.components ? c : m.link_to[m.first_link[c] + t / m.components - 1];
-        compare(network.W.coeff(row, m.node_of_cell[source] * m.components + t % m.components), weight[t]);
-      }
-    }
+  const std::vector<double> bias = mesh_.by_cell(network.I);
+  for (std::size_t k = 0; k < bias.size(); ++k) compare(bias[k], built.bias[k]);
+  mesh_.each_weight([&](std::size_t place, std::uint32_t row, std::uint32_t column) {
+    compare(network.W.coeff(row, column), built.weight[place]);
+  });
   return largest > 0 ? difference / largest : 0;
 }
 

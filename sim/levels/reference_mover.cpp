@@ -1,5 +1,6 @@
 #include "sim/levels/reference_mover.h"
 
+#include "sim/levels/eigen_vectors.h"
 #include "sim/levels/reference_check.h"
 
 #include <cmath>
@@ -14,11 +15,7 @@ ReferenceMover::ReferenceMover(const scene::Scene& scene, const BuiltMesh& mesh,
 }
 
 StepRow ReferenceMover::advance() {
-  if (image_) {
-    const std::vector<double>& pull = image_->at(position_);
-    motion_.node_force =
-        Eigen::Map<const reference::Vector>(pull.data(), static_cast<Eigen::Index>(pull.size()));
-  }
+  if (image_) motion_.node_force = vector_of(image_->at(position_));
   reference::State next = state_;
   last_ = reference::advance(mesh_.mesh(), motion_, order_, next);
   if (!next.position.allFinite() || !next.velocity.allFinite())
@@ -32,7 +29,7 @@ StepRow ReferenceMover::advance() {
   row.sweeps = last_.relaxation.sweeps;
   row.converged = last_.relaxation.converged;
   if (!row.converged)
-    row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.output);
+    row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.neuron);
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
@@ -41,16 +38,13 @@ StepRow ReferenceMover::advance() {
 }
 
 StepState ReferenceMover::state() const {
-  const auto values = [](const reference::Vector& v) {
-    return std::vector<double>(v.data(), v.data() + v.size());
-  };
   return {state_.step,
-          values(state_.position),
-          values(state_.velocity),
-          values(state_.acceleration),
-          values(state_.V),
-          values(state_.previous_position),
-          values(state_.previous_velocity)};
+          values_of(state_.position),
+          values_of(state_.velocity),
+          values_of(state_.acceleration),
+          values_of(state_.V),
+          values_of(state_.previous_position),
+          values_of(state_.previous_velocity)};
 }
 
 void ReferenceMover::restore(const StepState& state, const std::vector<SignalRange>&) {

@@ -1,32 +1,43 @@
 #include "sim/levels/rival_mover.h"
 
+#include "sim/levels/eigen_vectors.h"
+#include "sim/scene/scene_reader.h"
+
 namespace hopmesh::levels {
 
 namespace {
 
-std::vector<double> values(const rivals::Vector& v) {
-  return {v.data(), v.data() + v.size()};
-}
-
 rivals::State state_of(const std::vector<double>& position, const std::vector<double>& velocity) {
-  const auto vector = [](const std::vector<double>& by_node) {
-    return rivals::by_component(
-        Eigen::Map<const rivals::Vector>(by_node.data(), static_cast<Eigen::Index>(by_node.size())));
-  };
-  return {vector(position), vector(velocity)};
+  return {rivals::by_component(vector_of(position)), rivals::by_component(vector_of(velocity))};
 }
 
 } // namespace
 
+rivals::Surroundings surroundings_of(const scene::Scene& scene) {
+  if (scene.is_static())
+    throw scene::scene_error(
+        scene, "incremental.rule", "\"static\"",
+        "a motion (backward_euler or bdf2) for rivals and truth, which walk through time");
+  if (scene.mesh.law == scene::SpringLaw::tension)
+    throw scene::scene_error(scene, "mesh.springs.law", "\"tension\"",
+                             "\"linear\": rivals and truth know no other springs");
+  if (scene.force.image)
+    throw scene::scene_error(scene, "force.image.file", "an image",
+                             "none: rivals and truth do not look at it");
+  if (!(scene.motion.friction > 0))
+    throw scene::scene_error(scene, "motion.friction", "0", "above 0 for a method with a drag");
+  return rivals::Surroundings::of(scene);
+}
+
 RivalMover::RivalMover(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
-    : mesh_(mesh), physics_(mesh.mesh(), rivals::surroundings_of(scene)), time_step_(scene.motion.time_step),
+    : mesh_(mesh), physics_(mesh.mesh(), surroundings_of(scene)), time_step_(scene.motion.time_step),
       method_(rivals::make_method(name, physics_, time_step_)) {
   show_state();
 }
 
 void RivalMover::show_state() {
-  position_ = values(method_->positions());
-  velocity_ = values(method_->velocities());
+  position_ = values_of(method_->positions());
+  velocity_ = values_of(method_->velocities());
 }
 
 StepRow RivalMover::advance() {
@@ -51,8 +62,8 @@ StepState RivalMover::state() const {
   s.position = position_;
   s.velocity = velocity_;
   if (const rivals::State* before = method_->before()) {
-    s.previous_position = values(rivals::by_node(before->position));
-    s.previous_velocity = values(rivals::by_node(before->velocity));
+    s.previous_position = values_of(rivals::by_node(before->position));
+    s.previous_velocity = values_of(rivals::by_node(before->velocity));
   }
   return s;
 }

@@ -6,6 +6,9 @@
 
 namespace hopmesh::levels {
 
+/// What acts on a scene's mesh. Throws input::InputError for a scene that rivals and truth cannot move.
+rivals::Surroundings surroundings_of(const scene::Scene& scene);
+
 class RivalMover : public Mover {
  public:
   /// `name`: one of rivals::names(). The mesh must outlive it.

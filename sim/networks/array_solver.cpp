@@ -1,5 +1,6 @@
 #include "sim/networks/array_solver.h"
 
+#include "sim/levels/eigen_vectors.h"
 #include "sim/networks/solvers/factor.h"
 
 #include <cmath>
@@ -10,31 +11,6 @@ namespace hopmesh::networks {
 namespace {
 
 using solvers::Vector;
-
-/// use(place in the weight memory, row, column) for every weight, neurons numbered over all nodes.
-template <typename Use> void each_weight(const hm_mesh& m, Use use) {
-  for (std::uint32_t c = 0; c < m.cells; ++c)
-    for (std::uint32_t p = 0; p < m.components; ++p)
-      for (std::uint32_t t = 0; t < hm_row_length(&m, c); ++t) {
-        const std::uint32_t from = t < m.components ? c : m.link_to[m.first_link[c] + t / m.components - 1];
-        use(hm_row_offset(&m, c, p) + t, m.node_of_cell[c] * m.components + p,
-            m.node_of_cell[from] * m.components + t % m.components);
-      }
-}
-
-/// Entries of the cells' neurons of a vector over all nodes.
-std::vector<double> by_cell(const hm_mesh& m, const Vector& all) {
-  std::vector<double> values;
-  for (std::uint32_t c = 0; c < m.cells; ++c)
-    for (std::uint32_t p = 0; p < m.components; ++p)
-      values.push_back(all[m.node_of_cell[c] * m.components + p]);
-  return values;
-}
-
-Vector over_all(const levels::BuiltMesh& mesh, const std::vector<double>& by_cell) {
-  const auto all = mesh.by_node(by_cell);
-  return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
-}
 
 class ArraySolver : public solvers::Solver {
  public:
@@ -59,14 +35,14 @@ Vector rounded(const Vector& V, double last_place) {
 StepArray::StepArray(const solvers::Problem& whole, const levels::Prepared& prepared)
     : whole_(whole), prepared_(prepared),
       port_(levels::default_level().make_port(prepared.inputs.array, prepared.mesh->topology(), {})),
-      array_(*port_, prepared.mesh->firmware(), prepared.mesh->topology()) {}
+      array_(*port_, *prepared.mesh) {}
 
 // As the firmware loads it, so that no format is interpreted twice.
 void StepArray::load_and_sweep() {
-  const hm_mesh& mesh = prepared_.mesh->firmware();
-  CellNetwork network{std::vector<double>(hm_weight_count(&mesh)), by_cell(mesh, whole_.I),
-                      by_cell(mesh, whole_.start)};
-  each_weight(mesh, [&](std::uint32_t place, std::uint32_t row, std::uint32_t column) {
+  const levels::BuiltMesh& mesh = *prepared_.mesh;
+  levels::CellNetwork network{std::vector<double>(mesh.topology().weight_words()), mesh.by_cell(whole_.I),
+                              mesh.by_cell(whole_.start)};
+  mesh.each_weight([&](std::size_t place, std::uint32_t row, std::uint32_t column) {
     network.weight[place] = whole_.W.coeff(row, column);
   });
   cycles_ = array_.relax(std::move(network), 0, 1).cycles;
@@ -83,7 +59,7 @@ void StepArray::sweep() {
 
 Vector StepArray::outputs() const {
   const auto stay = solvers::reached_neurons(whole_);
-  const Vector all = over_all(*prepared_.mesh, array_.outputs());
+  const Vector all = levels::vector_of(prepared_.mesh->by_node(array_.outputs()));
   Vector V(static_cast<Eigen::Index>(stay.size()));
   for (Eigen::Index k = 0; k < V.size(); ++k) V[k] = all[stay[static_cast<std::size_t>(k)]];
   return V;
@@ -94,9 +70,9 @@ std::optional<solvers::Problem> StepArray::loaded() const {
     return std::nullopt;
   const std::vector<double> weight = array_.weights();
   solvers::Problem problem = whole_;
-  problem.I = over_all(*prepared_.mesh, array_.biases());
+  problem.I = levels::vector_of(prepared_.mesh->by_node(array_.biases()));
   std::vector<Eigen::Triplet<double>> entries;
-  each_weight(prepared_.mesh->firmware(), [&](std::uint32_t place, std::uint32_t row, std::uint32_t column) {
+  prepared_.mesh->each_weight([&](std::size_t place, std::uint32_t row, std::uint32_t column) {
     entries.emplace_back(row, column, weight[place]);
   });
   problem.W.setFromTriplets(entries.begin(), entries.end());

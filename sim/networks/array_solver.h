@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/levels/level.h"
-#include "sim/networks/loaded_array.h"
+#include "sim/levels/networks/loaded_array.h"
 #include "sim/networks/solvers/solver_runs.h"
 
 namespace hopmesh::networks {
@@ -29,7 +29,7 @@ class StepArray {
   const solvers::Problem& whole_;
   const levels::Prepared& prepared_;
   const std::unique_ptr<levels::ArrayPort> port_;
-  LoadedArray array_;
+  levels::LoadedArray array_;
   std::uint64_t cycles_ = 0;
 };
 

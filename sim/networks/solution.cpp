@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t longest_cycle = 16;
 
 // Outputs that come back have come back to everything that the next sweep depends on.
-std::uint32_t length_of_cycle(NetworkLevel& level, const reference::Vector& V) {
+std::uint32_t length_of_cycle(NetworkLevel& level, const Eigen::VectorXd& V) {
   for (std::uint32_t k = 1; k <= longest_cycle; ++k) {
     if (level.sweep() == 0) return 0; // one sweep more was all that rest wanted
     if (level.outputs() == V) return k;
@@ -25,23 +25,18 @@ Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOpti
   solution.rest = level.relax(options.threshold, options.max_sweeps);
   solution.clipped = level.clipped();
   solution.V = level.outputs();
-  solution.energy_at_start = reference::network_energy(network.network(), network.start());
-  solution.energy = reference::network_energy(network.network(), solution.V);
-  solution.kkt = reference::kkt_violation(network.network(), solution.V);
+  solution.energy_at_start = network.energy(network.start());
+  solution.energy = network.energy(solution.V);
+  solution.kkt = network.kkt_violation(solution.V);
   if (!solution.rest.converged) solution.limit_cycle = length_of_cycle(level, solution.V);
   return solution;
 }
 
 void write_sweeps(const std::filesystem::path& file, const GivenNetwork& network, NetworkLevel& level,
                   const Solution& solution, const std::atomic<bool>& stop) {
-  const std::optional<reference::Network> loaded = level.loaded();
   files::CsvWriter table(file, {"sweep", "energy", "loaded_energy", "largest_change"});
   const auto add = [&](std::uint32_t sweep, double change) {
-    table.cell(sweep).cell(reference::network_energy(network.network(), level.outputs()));
-    if (loaded)
-      table.cell(reference::network_energy(*loaded, level.outputs()));
-    else
-      table.cell("");
+    table.cell(sweep).cell(network.energy(level.outputs())).cell(level.loaded_energy());
     table.cell(change).end_row();
   };
   level.restart();

@@ -1,12 +1,15 @@
 // What solving a given network came to, and the files that tell it.
 #pragma once
 
-#include "sim/networks/network_level.h"
+#include "rtl_model/spec/relaxation.h"
+#include "sim/levels/networks/network_level.h"
 
 #include <atomic>
 #include <filesystem>
 
 namespace hopmesh::networks {
+
+using levels::GivenNetwork, levels::NetworkLevel, levels::array_level, levels::reference_level;
 
 struct SolveOptions {
   double threshold = 1e-4;
@@ -16,7 +19,7 @@ struct SolveOptions {
 struct Solution {
   spec::Relaxation rest;
   std::uint32_t clipped = 0; ///< weights and biases that did not fit the formats of an array
-  reference::Vector V;
+  Eigen::VectorXd V;
   double energy_at_start = 0, energy = 0; ///< -1/2 V'WV - I'V of the network as given
   double kkt = 0;                         ///< how far a step of s_i / N_i can still move an output
   std::uint32_t limit_cycle = 0; ///< sweeps after which the very same outputs come again; 0: none found

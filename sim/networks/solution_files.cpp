@@ -1,6 +1,7 @@
 // A solution as people read it, and as V.mtx and summary.json.
 #include "sim/files/output_file.h"
 #include "sim/input/count_text.h"
+#include "sim/levels/eigen_vectors.h"
 #include "sim/networks/solution.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
 
 void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
                     const Solution& s) {
-  files::write_vector(folder / "V.mtx", std::vector<double>(s.V.data(), s.V.data() + s.V.size()));
+  files::write_vector(folder / "V.mtx", levels::values_of(s.V));
   const nlohmann::ordered_json summary{
       {"network", label.network},   {"level", label.level},          {"rule", label.rule},
       {"schedule", label.schedule}, {"neurons", network.neurons()},  {"weights", network.weights()},

@@ -81,12 +81,14 @@ void SvgCanvas::frame(const Box& box, const std::string& heading, const std::str
 
 void SvgCanvas::number_x(const Box& box, double x, const std::string& number, const char* line_colour) {
   if (line_colour) put(R"(<path d="M{} {}V{}" stroke="{}"/>)", x, box.top, box.bottom, line_colour);
-  put(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", x, box.bottom + 20, number);
+  if (!number.empty())
+    put(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", x, box.bottom + 20, number);
 }
 
 void SvgCanvas::number_y(const Box& box, double y, const std::string& number, const char* line_colour) {
   if (line_colour) put(R"(<path d="M{} {}H{}" stroke="{}"/>)", box.left, y, box.right, line_colour);
-  put(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", box.left - 8, y + 4.5, number);
+  if (!number.empty())
+    put(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", box.left - 8, y + 4.5, number);
 }
 
 double SvgCanvas::name(double x, double y, const std::string& colour, const std::string& words) {

@@ -110,7 +110,7 @@ class Relaxing {
     step.V0 = step.relaxation.V;
     step.network = network(mesh_, increment_, step.scale, step.V0);
     step.relaxation =
-        relax(step.network, order_, step.V0, motion_.threshold, motion_.max_sweeps, motion_.output);
+        relax(step.network, order_, step.V0, motion_.threshold, motion_.max_sweeps, motion_.neuron);
     step.relaxation.sweeps += before;
   }
 

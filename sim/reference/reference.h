@@ -2,12 +2,13 @@
 // alone. The reference shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
-#include "rtl_model/spec/array_spec.h"
 #include "sim/scene/mesh.h"
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace hopmesh::reference {
 
@@ -24,6 +25,9 @@ struct Network {
 /// Order in which neurons fire: one entry a phase; neurons of a phase all read the outputs from before it.
 using Order = std::vector<std::vector<std::uint32_t>>;
 
+/// What a neuron does with its input s: a step R s / N (paper eqs. 9 to 12), or the sign of s (paper eq. 3).
+enum class Neuron { modified, binary };
+
 struct Relaxation {
   Vector V;
   std::uint32_t sweeps = 0;
@@ -35,7 +39,7 @@ extern const Formulation probe, backward_euler, bdf2, statics;
 
 struct StepParameters {
   const Formulation* formulation = &probe;
-  spec::Output output = spec::Output::modified;
+  Neuron neuron = Neuron::modified;
   double mass = 1, drag = 0; ///< kg of a node; 1/s
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
@@ -97,11 +101,10 @@ Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale
 
 /// -1/2 V'WV - I'V.
 double network_energy(const Network& network, const Vector& V);
-/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]): steps R s / N (paper eqs. 9 to
-/// 12), or signs of s where outputs are binary (paper eq. 3), until no output moves by more than threshold in
-/// a sweep, or max_sweeps.
+/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more
+/// than threshold in a sweep, or max_sweeps.
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, spec::Output output = spec::Output::modified);
+                 std::uint32_t max_sweeps, Neuron neuron = Neuron::modified);
 /// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
 double kkt_violation(const Network& network, const Vector& V);
 

@@ -44,8 +44,8 @@ double sign(double s, double V) {
 /// A network, ready to sweep: everything a sweep needs is allocated here.
 class Sweeper {
  public:
-  Sweeper(const Network& network, const Order& order, Vector& V, spec::Output output)
-      : network_(network), order_(order), V_(V), N_(normalisers(network)), next_(V.size()), output_(output) {}
+  Sweeper(const Network& network, const Order& order, Vector& V, Neuron neuron)
+      : network_(network), order_(order), V_(V), N_(normalisers(network)), next_(V.size()), neuron_(neuron) {}
 
   /// Fires every neuron of the order once; the largest |dV|.
   double sweep() {
@@ -59,7 +59,7 @@ class Sweeper {
   double fire_together(const std::vector<std::uint32_t>& phase) {
     for (const std::uint32_t neuron : phase) {
       const double s = input_sum(network_, V_, neuron);
-      next_[neuron] = output_ == spec::Output::binary ? sign(s, V_[neuron]) : fire(s, N_[neuron], V_[neuron]);
+      next_[neuron] = neuron_ == Neuron::binary ? sign(s, V_[neuron]) : fire(s, N_[neuron], V_[neuron]);
     }
     double largest = 0;
     for (const std::uint32_t neuron : phase) {
@@ -73,15 +73,15 @@ class Sweeper {
   const Order& order_;
   Vector& V_;
   Vector N_, next_;
-  const spec::Output output_;
+  const Neuron neuron_;
 };
 
 } // namespace
 
 Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, spec::Output output) {
+                 std::uint32_t max_sweeps, Neuron neuron) {
   Relaxation result;
-  Sweeper sweeper(network, order, V, output);
+  Sweeper sweeper(network, order, V, neuron);
   while (result.sweeps < max_sweeps && !result.converged) {
     result.converged = sweeper.sweep() <= threshold;
     ++result.sweeps;

@@ -14,7 +14,7 @@ class SymplecticEuler : public Method {
     const double dt = time_step_;
     physics_.spring_forces(state_.position, force_);
     ++counters_.force_passes;
-    physics_.kick(1 - physics_.drag() * dt, dt, force_, state_.velocity);
+    physics_.kick(physics_.kept(dt), dt, force_, state_.velocity);
     state_.position += dt * state_.velocity;
   }
 
@@ -42,8 +42,8 @@ class VelocityVerlet : public Method {
 
   void step() override {
     if (!knows_force_) find_force();
-    const double half = time_step_ / 2, lost = 1 / (1 + physics_.drag() * half);
-    physics_.kick(1 - physics_.drag() * half, half, force_, state_.velocity);
+    const double half = time_step_ / 2, lost = 1 / physics_.slowed(half);
+    physics_.kick(physics_.kept(half), half, force_, state_.velocity);
     state_.position += time_step_ * state_.velocity;
     find_force();
     physics_.kick(lost, lost * half, force_, state_.velocity);
@@ -63,8 +63,7 @@ class RungeKutta4 : public Method {
  private:
   void slope(const State& at, State& result) {
     result.position = at.velocity;
-    physics_.acceleration(at.position, result.velocity);
-    result.velocity -= physics_.drag() * at.velocity;
+    physics_.acceleration(at.position, at.velocity, result.velocity);
     ++counters_.force_passes;
   }
 

@@ -14,7 +14,7 @@ class ImplicitRule : public Method {
 
  protected:
   void solve(const Vector& past_position, const Vector& past_velocity, double b) {
-    const double braked = 1 + physics_.drag() * b;
+    const double braked = physics_.slowed(b);
     problem_.inertia = physics_.mass() * braked / (b * b);
     problem_.y = past_position + b / braked * (past_velocity + b * physics_.external());
     x_ = problem_.y;

@@ -1,8 +1,6 @@
 // Choosing a rival by name, and what all of them share.
 #include "sim/rivals/all_integrators.h"
 
-#include "sim/input/input_error.h"
-
 #include <cmath>
 
 namespace hopmesh::rivals {
@@ -27,22 +25,9 @@ const std::vector<Row> rows = {
 // Far beyond any motion a scene describes, far below where squares overflow and infinities breed NaN.
 constexpr double lost_speed = 1e30;
 
-void expect(bool good, const std::string& key, double found, const std::string& expected) {
-  if (!good) throw input::input_error("", 0, key, std::to_string(found), expected);
-}
-
-void check(double time_step, const Options& options) {
-  expect(time_step > 0 && std::isfinite(time_step), "time_step", time_step, "a positive number");
-  expect(options.tolerance > 0, "tolerance", options.tolerance, "a positive number");
-  expect(options.max_iterations > 0, "max_iterations", options.max_iterations, "at least 1");
-  expect(options.substeps > 0, "substeps", options.substeps, "at least 1");
-  expect(options.iterations >= 0, "iterations", options.iterations, "at least 1, or 0 for the method's own");
-}
-
-std::string list(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+bool in_range(double time_step, const Options& options) {
+  return time_step > 0 && std::isfinite(time_step) && options.tolerance > 0 && options.max_iterations > 0 &&
+         options.substeps > 0 && options.iterations >= 0;
 }
 
 } // namespace
@@ -81,8 +66,7 @@ namespace {
 const Row& row_named(const std::string& name) {
   for (const Row& row : rows)
     if (row.name == name) return row;
-  throw input::input_error("", 0, "method", input::in_quotes(name), "one of " + list(names()),
-                           input::nearest_name(name, names()));
+  throw std::invalid_argument("no rival is named " + name);
 }
 
 } // namespace
@@ -93,7 +77,7 @@ const char* about(const std::string& name) {
 
 std::unique_ptr<Method> make_method(const std::string& name, const Physics& physics, double time_step,
                                     const Options& options) {
-  check(time_step, options);
+  if (!in_range(time_step, options)) throw std::invalid_argument("a time step or an option out of range");
   return row_named(name).make(physics, time_step, options);
 }
 

@@ -4,6 +4,7 @@
 #include "sim/rivals/physics.h"
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace hopmesh::rivals {
@@ -68,8 +69,8 @@ const std::vector<std::string>& names();
 /// An integrator for people, in a phrase.
 const char* about(const std::string& name);
 
-/// Throws input::InputError for a name that is none of names(), a time step that is not positive, options out
-/// of range.
+/// Throws std::invalid_argument for a name that is none of names(), a time step that is not positive, options
+/// out of range.
 std::unique_ptr<Method> make_method(const std::string& name, const Physics& physics, double time_step,
                                     const Options& options = {});
 

@@ -1,8 +1,7 @@
 // The equation of motion: who moves, what pulls.
 #include "sim/rivals/physics.h"
 
-#include "sim/input/input_error.h"
-#include "sim/scene/scene_reader.h"
+#include "sim/scene/scene.h"
 
 #include <cmath>
 
@@ -24,21 +23,9 @@ Vector by_component(const Vector& by_node) {
   return result;
 }
 
-Surroundings surroundings_of(const scene::Scene& scene) {
-  if (scene.is_static())
-    throw scene::scene_error(
-        scene, "incremental.rule", "\"static\"",
-        "a motion (backward_euler or bdf2) for rivals and truth, which walk through time");
-  if (scene.mesh.law == scene::SpringLaw::tension)
-    throw scene::scene_error(scene, "mesh.springs.law", "\"tension\"",
-                             "\"linear\": rivals and truth know no other springs");
-  if (scene.force.image)
-    throw scene::scene_error(scene, "force.image.file", "an image",
-                             "none: rivals and truth do not look at it");
-  const double friction = scene.motion.friction;
-  if (!(friction > 0))
-    throw scene::scene_error(scene, "motion.friction", "0", "above 0 for a method with a drag");
+Surroundings Surroundings::of(const scene::Scene& scene) {
   Surroundings result;
+  const double friction = scene.motion.friction;
   const scene::Vector3 wind = scene.force.wind.value_or(scene::Vector3{0, 0, 0});
   for (std::size_t p = 0; p < 3; ++p) result.force[p] = scene.force.gravity[p] + wind[p];
   result.drag = scene.force.drag - (friction == 1 ? 0 : std::log(friction) / scene.motion.time_step);
@@ -62,9 +49,9 @@ Physics::Physics(const scene::Mesh& mesh, const Surroundings& surroundings)
     }
 }
 
-void Physics::acceleration(In position, Out result) const {
+void Physics::acceleration(In position, In velocity, Out result) const {
   spring_forces(position, result);
-  result.array() = result.array() * inverse_mass_.array() + external_.array();
+  result.array() = result.array() * inverse_mass_.array() + external_.array() - drag_ * velocity.array();
 }
 
 void Physics::kick(double kept, double time, In force, Out velocity) const {

@@ -21,14 +21,12 @@ struct Surroundings {
   scene::Vector3 force{0, 0, 0}; ///< acceleration, m/s^2
   double drag = 0;               ///< c, 1/s
 
+  /// Gravity plus wind; the air's drag, and friction, a factor on v each step, as the drag
+  /// -ln(friction) / time_step that loses as much: of friction 0, which stops every motion, there is none.
+  static Surroundings of(const scene::Scene& scene);
   /// All of them, for whoever tells two surroundings apart.
   std::vector<double> numbers() const { return {force[0], force[1], force[2], drag}; }
 };
-
-/// Gravity plus wind; the air's drag, and friction, a factor on v each step, as the drag
-/// -ln(friction) / time_step that loses as much. Throws input::InputError where friction stops every motion
-/// (0), which no drag does.
-Surroundings surroundings_of(const scene::Scene& scene);
 
 class Physics {
  public:
@@ -36,7 +34,9 @@ class Physics {
 
   Eigen::Index nodes() const { return nodes_; }
   double mass() const { return mass_; }
-  double drag() const { return drag_; }
+  /// What drag leaves of a velocity after dt s taken explicitly, and what divides it taken implicitly.
+  double kept(double dt) const { return 1 - drag_ * dt; }
+  double slowed(double dt) const { return 1 + drag_ * dt; }
   const std::vector<scene::Spring>& springs() const { return springs_; }
   /// [3 * nodes]: 1 / mass, 0 where nothing moves (pinned; y of planar meshes).
   const Vector& inverse_mass() const { return inverse_mass_; }
@@ -48,8 +48,8 @@ class Physics {
   void spring_forces(In position, const Out& force) const { pass_.forces(position, force); }
   /// velocity = kept * velocity + time * (force / mass + gravity and wind), 0 where nothing moves.
   void kick(double kept, double time, In force, Out velocity) const;
-  /// Springs and surroundings without drag, which each method treats in its own way.
-  void acceleration(In position, Out result) const;
+  /// By springs, surroundings and drag.
+  void acceleration(In position, In velocity, Out result) const;
   double spring_energy(In position) const { return pass_.energy(position); }
   /// Kinetic, spring and potential energy, J.
   double energy(const State& state) const;

@@ -9,7 +9,7 @@ namespace hopmesh::rivals {
 namespace {
 
 double inertia_of(const Physics& physics, double dt) {
-  return physics.mass() * (1 + physics.drag() * dt) / (dt * dt);
+  return physics.mass() * physics.slowed(dt) / (dt * dt);
 }
 
 class ProjectiveDynamics : public Method {
@@ -21,7 +21,7 @@ class ProjectiveDynamics : public Method {
 
  private:
   void step() override {
-    const double dt = time_step_, braked = 1 + physics_.drag() * dt;
+    const double dt = time_step_, braked = physics_.slowed(dt);
     const double inertia = inertia_of(physics_, dt);
     y_ = state_.position + dt / braked * (state_.velocity + dt * physics_.external());
     x_ = y_;

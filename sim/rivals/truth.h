@@ -35,8 +35,8 @@ class Walk {
   std::unique_ptr<Solver> solver_;
 };
 
-/// Times ascending from 0. Throws input::InputError for others and for a tolerance outside 1e-14..1e-3, which
-/// SUNDIALS advises against.
+/// Times ascending from 0. Throws std::invalid_argument for others and for a tolerance outside 1e-14..1e-3,
+/// which SUNDIALS advises against.
 Truth solve(const Physics& physics, const std::vector<double>& times, double rtol = 1e-12);
 
 } // namespace hopmesh::rivals

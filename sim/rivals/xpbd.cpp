@@ -51,7 +51,7 @@ class Xpbd : public Method {
  public:
   Xpbd(const Physics& physics, double time_step, int substeps, int iterations)
       : Method("xpbd", physics, time_step), substeps_(substeps), iterations_(iterations),
-        dt_(time_step / substeps), braked_(1 + physics.drag() * dt_), springs_(coloured(physics)),
+        dt_(time_step / substeps), braked_(physics.slowed(dt_)), springs_(coloured(physics)),
         mobility_(physics.inverse_mass() / braked_), multiplier_(springs_.from.size()),
         compliance_(springs_.from.size()), share_(springs_.from.size()) {
     const Vector& w = mobility_;

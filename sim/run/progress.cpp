@@ -1,6 +1,7 @@
 #include "sim/run/progress.h"
 
 #include "sim/files/standard_streams.h"
+#include "sim/levels/interrupt.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -40,6 +41,12 @@ void Progress::draw(const levels::StepRow& row, Clock::time_point now) {
   const std::size_t full = width * done / steps_;
   files::say(fmt::format("\r\033[K[{:=<{}}{:<{}}] step {} of {}, {} sweeps, strain {:.0f} %, {:.0f} s left",
                          "", full, "", width - full, done, steps_, row.sweeps, 100 * row.max_strain, left));
+}
+
+RunResult simulate_shown(levels::Mover& motion, std::uint64_t steps, std::vector<StepSink*> sinks) {
+  Progress progress(steps);
+  sinks.push_back(&progress);
+  return simulate(motion, steps, sinks, levels::stop_requested);
 }
 
 CountProgress::CountProgress(const char* what, std::uint64_t total)

@@ -28,6 +28,9 @@ class Progress : public StepSink {
   std::chrono::steady_clock::time_point began_, drawn_;
 };
 
+/// simulate() with a bar, until the user stops it.
+RunResult simulate_shown(levels::Mover& motion, std::uint64_t steps, std::vector<StepSink*> sinks = {});
+
 /// A bar for things that are counted; `total` 0: nobody knows how many.
 class CountProgress {
  public:

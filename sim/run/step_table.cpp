@@ -1,8 +1,8 @@
 #include "sim/run/step_table.h"
 
 #include "sim/input/input_error.h"
+#include "sim/input/number.h"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <fstream>
 #include <utility>
@@ -34,8 +34,7 @@ class Cells {
   template <class Number, class... Base>
   void read_cell(Number& value, const char* expected = "a number", Base... base) {
     const std::string_view cell = next();
-    const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value, base...);
-    expect(failure == std::errc() && stop == cell.data() + cell.size(), cell, expected);
+    expect(input::parse_number(cell, value, base...), cell, expected);
   }
   void read_cell(bool& value) {
     const std::string_view cell = next();

@@ -1,6 +1,7 @@
 // A point of a study: its settings in, a row of results out. This is the one place where methods plug in.
 #pragma once
 
+#include "sim/levels/exact_motion.h"
 #include "sim/run/snapshots.h"
 #include "sim/scene/scene_file.h"
 #include "sim/study/point_row.h"
@@ -9,11 +10,7 @@
 
 namespace hopmesh::study {
 
-/// The exact motion at a few times, and how far it is known; empty where nobody knows it.
-struct Truth {
-  std::vector<std::vector<double>> positions; ///< [times] each [nodes * 3], m
-  std::vector<double> floor;                  ///< [times] rms that two exact solutions differ by, m
-};
+using Truth = levels::ExactMotion;
 
 /// The methods a study may name, given by whoever can see them all. A method is a Motion: levels of the
 /// array, the reference, and integrators alike.

@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/files/running_check.h"
+#include "sim/input/command_words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,10 +12,8 @@ namespace hopmesh::study {
 namespace {
 
 std::string command_of(const Study& study, const Point& point) {
-  std::string command = "hopmesh run " + shell_word(study.scene);
-  if (!study.array.empty()) command += " --array " + shell_word(study.array);
-  for (const std::string& override : point.overrides) command += " --set " + shell_word(override);
-  return command + " --level " + point.method;
+  const std::string words = input::text_of({study.scene, study.array, point.overrides});
+  return fmt::format("hopmesh run {} --level {}", words, point.method);
 }
 
 /// The place on each axis that a point stands for.
@@ -87,15 +86,6 @@ void check_point(const Study& study, const Point& point, const scene::Inputs& in
 }
 
 } // namespace
-
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_-./=:,") == std::string::npos)
-    return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 Point point_of(const Study& study, std::size_t number) {
   Point point;

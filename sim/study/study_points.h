@@ -6,9 +6,6 @@
 
 namespace hopmesh::study {
 
-/// A word in quotes where a shell would ask for them.
-std::string shell_word(const std::string& word);
-
 /// Methods outermost, then the axes in the file's order, the last one fastest.
 Point point_of(const Study& study, std::size_t number);
 

@@ -5,8 +5,6 @@
 #include "sim/files/npy.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/step_state.h"
-#include "sim/rivals/integrator.h"
-#include "sim/rivals/truth.h"
 #include "sim/run/checkpoint.h"
 
 #include <chrono>
@@ -19,26 +17,6 @@ namespace hopmesh::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double tolerance = 1e-11; // relative and absolute; far below what any rival reaches
-
-// What the exact motion depends on: not the method, not the time step but through friction.
-std::uint64_t hash_of(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
-                      const std::vector<double>& times) {
-  std::vector<double> numbers = around.numbers();
-  numbers.insert(numbers.end(), times.begin(), times.end());
-  return levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
-}
-
-Truth solve(const rivals::Surroundings& around, const levels::BuiltMesh& mesh,
-            const std::vector<double>& times) {
-  const rivals::Truth found = rivals::solve(rivals::Physics(mesh.mesh(), around), times, tolerance);
-  Truth truth;
-  truth.floor = found.floor;
-  for (const rivals::Vector& at : found.positions)
-    truth.positions.emplace_back(at.data(), at.data() + at.size());
-  return truth;
-}
 
 /// A row a time: how far the truth is known, and a hash of its positions, which stand in a file beside it.
 const std::vector<std::string> columns{"time", "floor", "positions"};
@@ -125,22 +103,20 @@ std::optional<files::CsvWriter> claim(const fs::path& table) {
 } // namespace
 
 void TruthStore::expect_known(const scene::Scene& scene) {
-  rivals::surroundings_of(scene);
+  levels::exact_surroundings(scene);
 }
 
 Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                      const std::vector<double>& times) const {
-  const rivals::Surroundings around = rivals::surroundings_of(inputs.scene);
-  const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash_of(around, mesh, times));
+  std::vector<double> numbers = levels::exact_surroundings(inputs.scene);
+  numbers.insert(numbers.end(), times.begin(), times.end());
+  const std::uint64_t hash = levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
+  const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash);
   std::optional<files::CsvWriter> table = claim(stem.string() + ".csv");
   if (!table) return levels::stop_requested ? Truth() : Saved(stem, times, mesh.nodes()).truth();
-  try {
-    Truth truth = solve(around, mesh, times);
-    save(*table, stem, times, truth, mesh.nodes());
-    return truth;
-  } catch (const rivals::LostMotion&) {
-    return {};
-  }
+  Truth truth = levels::exact_motion(inputs.scene, mesh, times);
+  if (!truth.positions.empty()) save(*table, stem, times, truth, mesh.nodes());
+  return truth;
 }
 
 } // namespace hopmesh::study

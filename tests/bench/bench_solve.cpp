@@ -2,7 +2,7 @@
 #include "firmware/driver.h"
 #include "rtl_model/spec/array_rules.h"
 #include "sim/engine/device.h"
-#include "sim/networks/given_network.h"
+#include "sim/levels/networks/given_network.h"
 #include "sim/networks/problems/problem.h"
 #include "tests/bench/grid_network.h"
 
@@ -38,7 +38,7 @@ void flag(benchmark::State& state) {
 
 void problem(benchmark::State& state, const std::string& name) {
   const problems::Problem p = problems::make(name);
-  const networks::GivenNetwork network({p.W, p.bias, p.start}, 0);
+  const levels::GivenNetwork network({p.W, p.bias, p.start}, 0);
   spec::ArraySpec array = spec::default_array();
   if (p.binary) array.output = spec::Output::binary;
   const std::atomic<bool> stop{false};

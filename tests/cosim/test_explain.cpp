@@ -24,7 +24,8 @@ class Explain : public ::testing::Test {
       cosim::load(cosim::BusArray(each->bus(), job.topology), job);
       each->forget_loads();
     }
-    return cosim::first_difference({&a.bus(), &b.bus()}, mesh, job, max_sweeps);
+    const cosim::BusArray first(a.bus(), job.topology), second(b.bus(), job.topology);
+    return cosim::first_difference({first, second}, mesh, job, max_sweeps);
   }
 
   ArrayJob network(std::uint32_t max_sweeps) const {
@@ -142,8 +143,7 @@ TEST_F(Explain, ALoadedJobReadsTheWindowsBack) {
   const ArrayJob wanted = network(17);
   const cosim::BusArray there(port.bus(), wanted.topology);
   cosim::load(there, wanted);
-  there.write(HM_REG_THRESHOLD, 5);
-  there.write(HM_REG_MAX_SWEEPS, 17);
+  there.run(5, 17);
   const ArrayJob found = cosim::loaded_job(port.bus(), array, mesh.topology(), wanted.start);
   EXPECT_EQ(found.weight, wanted.weight);
   EXPECT_EQ(found.bias, wanted.bias);

@@ -13,16 +13,17 @@ namespace {
 
 using Rooms = std::set<std::string>;
 
-// Who may include whom, beside itself. Engine, systemc and reference never meet: they share the facts (spec),
-// never the arithmetic, so that their agreement is evidence. Nobody includes cli; tests may include anything.
+// Who may include whom, beside itself. Engine, systemc and reference never meet: engine and systemc share the
+// facts (spec), never the arithmetic, and the reference knows of no array at all, so that their agreement is
+// evidence. Nobody includes cli; tests may include anything.
 const std::map<std::string, Rooms> allowed = {
     {"firmware", {}},
     {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
-    {"sim/reference", {"rtl_model/spec", "sim/scene"}},
-    {"sim/rivals", {"sim/input", "sim/scene"}},
+    {"sim/reference", {"sim/scene"}},
+    {"sim/rivals", {"sim/scene"}},
     {"sim/engine", {"rtl_model/spec", "firmware/registers.h", "firmware/host_bus.h"}},
     {"sim/files", {"sim/input"}},
     {"sim/pictures", {"sim/files"}},
@@ -30,15 +31,13 @@ const std::map<std::string, Rooms> allowed = {
      {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/input", "sim/scene", "sim/reference",
       "sim/rivals", "sim/engine", "sim/files"}},
     {"sim/run", {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels"}},
-    {"sim/cosim",
-     {"rtl_model/spec", "firmware", "sim/input", "sim/scene", "sim/files", "sim/levels", "sim/run"}},
-    {"sim/networks",
-     {"rtl_model/spec", "firmware", "sim/input", "sim/reference", "sim/files", "sim/levels", "sim/run"}},
+    {"sim/cosim", {"rtl_model/spec", "sim/input", "sim/files", "sim/levels", "sim/run"}},
+    {"sim/networks", {"rtl_model/spec", "sim/input", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
     {"sim/study",
-     {"rtl_model/spec", "sim/input", "sim/scene", "sim/rivals", "sim/files", "sim/levels", "sim/run"}},
+     {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
     {"sim/cli",
-     {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels", "sim/run",
-      "sim/cosim", "sim/networks", "sim/study"}},
+     {"sim/input", "sim/scene", "sim/files/standard_streams.h", "sim/levels", "sim/run", "sim/cosim",
+      "sim/networks", "sim/study"}},
 };
 
 // The machines of the engine: who may include whom. All of them may include the engine's root; of the root,
@@ -62,7 +61,7 @@ const std::map<std::string, Rooms> oracles = {
 // Which rooms may know a library from outside. Firmware knows none but <stdint.h>.
 const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("systemc|tlm.*|sysc/.*"), {"rtl_model/systemc", "sim/levels", "sim/cli"}},
-    {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals", "sim/networks"}},
+    {std::regex("Eigen/.*"), {"sim/reference", "sim/rivals", "sim/levels", "sim/networks"}},
     {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
     {std::regex("toml.*"), {"sim/input"}},
@@ -183,6 +182,20 @@ TEST(Arrows, everyIncludeFollowsTheTable) {
   }
 }
 
+// Each pair of rooms that know of each other is one more thing to keep in mind.
+TEST(Arrows, joinAtMostFortyTwoPercentOfThePairsOfRooms) {
+  std::set<std::pair<std::string, std::string>> joined;
+  for (const TreeFile& file : tree_files({".h", ".c", ".cpp"}))
+    for (const std::string& included : includes_of(file.text)) {
+      const std::string room = room_of(file.path), other = room_of(included);
+      if (room != other && allowed.count(room) && allowed.count(other))
+        joined.insert(std::minmax(room, other));
+    }
+  const std::size_t rooms = allowed.size(), pairs = rooms * (rooms - 1) / 2;
+  EXPECT_GT(joined.size(), rooms);
+  EXPECT_LE(100 * joined.size(), 42 * pairs) << joined.size() << " of " << pairs;
+}
+
 TEST(Arrows, oraclesDeriveEverythingByThemselves) {
   for (const auto& [oracle, facts] : oracles) {
     Rooms reached;
@@ -211,12 +224,18 @@ TEST(Arrows, theTableRefusesWhatItShould) {
             Rooms{"rtl_model/spec/points.h"});
   EXPECT_EQ(out_of_bounds("tests/other_core/", {"rtl_model/spec/array_spec.h"}),
             Rooms{"rtl_model/spec/array_spec.h"});
-  EXPECT_TRUE(may_include("sim/reference", "rtl_model/spec/array_spec.h"));
+  EXPECT_FALSE(may_include("sim/reference", "rtl_model/spec/array_spec.h"));
   EXPECT_FALSE(may_include("rtl_model/spec", "firmware/driver.h"));
   EXPECT_FALSE(may_include("rtl_model/systemc", "firmware/driver.h"));
   EXPECT_TRUE(may_include("rtl_model/systemc", "firmware/registers.h"));
   EXPECT_FALSE(may_include("sim/reference", "rtl_model/systemc/device.h"));
   EXPECT_FALSE(may_include("sim/study", "sim/cli/options.h"));
+  for (const char* above : {"sim/run", "sim/cosim", "sim/networks", "sim/study", "sim/cli"})
+    for (const char* model : {"firmware/registers.h", "rtl_model/systemc/device.h", "sim/engine/engine.h",
+                              "sim/reference/reference.h", "sim/rivals/truth.h"})
+      EXPECT_FALSE(may_include(above, model)) << above << ' ' << model;
+  EXPECT_FALSE(may_include("sim/cli", "rtl_model/spec/array_rules.h"));
+  EXPECT_FALSE(may_include("sim/cli", "sim/files/csv.h"));
   EXPECT_FALSE(may_include("sim/files", "tests/support/dut.h"));
   EXPECT_FALSE(may_include_machine("sim/engine/kernels/kernel.h", "sim/engine/generic/lane_arithmetic.h"));
   EXPECT_FALSE(may_include_machine("sim/engine/engine.cpp", "sim/engine/clocked/clocked.h"));

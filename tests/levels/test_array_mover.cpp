@@ -92,6 +92,19 @@ TEST(ArrayMover, RawOutputsAreWhatTheArrayHolds) {
   EXPECT_EQ(rig.motion.outputs_raw(), rig.mesh.by_node(rest));
 }
 
+TEST(BusArray, TellsWhatTheRegistersHold) {
+  Rig rig(grid_scene(2, 3));
+  const levels::BusArray array(rig.port.bus(), rig.mesh.topology());
+  rig.motion.advance();
+  const std::uint64_t before = array.bus_cycles();
+  const spec::Relaxation run = array.run(3, 7);
+  EXPECT_TRUE(array.last_run() == run);
+  EXPECT_EQ(array.threshold(), 3u);
+  EXPECT_EQ(array.max_sweeps(), 7u);
+  EXPECT_EQ(array.capabilities().front(), rig.mesh.cells());
+  EXPECT_GT(array.bus_cycles(), before);
+}
+
 TEST(ArrayMover, RangesCoverWhatPassedTheBusAndWhatThePortSaw) {
   Rig rig(grid_scene(2, 3));
   rig.motion.advance();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <gmock/gmock.h>
+#include <numeric>
+#include <set>
 
 namespace hopmesh::tests {
 namespace {
@@ -29,6 +31,25 @@ TEST(BuiltMesh, LinksJoinFreeNeighboursOnly) {
   EXPECT_THAT(mesh.topology().first_link, ElementsAre(0, 3, 6, 9, 12)); // 4 cells, each joined to all others
   EXPECT_THAT(mesh.topology().link_to, ElementsAre(1, 2, 3, 0, 2, 3, 0, 1, 3, 0, 1, 2));
   EXPECT_EQ(mesh.topology().links(), 6u);
+}
+
+TEST(BuiltMesh, EveryWeightHasOnePlaceAndItsTransposeAnother) {
+  const levels::BuiltMesh mesh(grid_scene(3, 4));
+  std::set<std::size_t> places;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> entries;
+  mesh.each_weight([&](std::size_t place, std::uint32_t row, std::uint32_t column) {
+    EXPECT_TRUE(places.insert(place).second && entries.emplace(row, column).second);
+  });
+  EXPECT_EQ(places.size(), mesh.topology().weight_words());
+  EXPECT_EQ(*places.rbegin() + 1, places.size());
+  for (const auto& [row, column] : entries) EXPECT_EQ(entries.count({column, row}), 1u);
+}
+
+TEST(BuiltMesh, ByCellTakesBackWhatByNodeSpread) {
+  const levels::BuiltMesh mesh(grid_scene(2, 3));
+  std::vector<double> of_cells(12);
+  std::iota(of_cells.begin(), of_cells.end(), 1.0);
+  EXPECT_EQ(mesh.by_cell(mesh.by_node(of_cells)), of_cells);
 }
 
 TEST(BuiltMesh, LinksAreSymmetricAndSortedInALargerOne) {

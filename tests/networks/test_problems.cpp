@@ -1,5 +1,5 @@
 // The problem set: what its networks are, what their least energies are, and that memories recall.
-#include "sim/networks/given_network.h"
+#include "sim/levels/networks/given_network.h"
 #include "sim/networks/problems/making.h"
 #include "tests/support/box_solver.h"
 
@@ -49,7 +49,7 @@ TEST(Problems, AreAtLeastTwentyAndReachAHundredThousandNeurons) {
 TEST(Problems, AreSymmetricToTheLastBit) {
   for (const std::string& name : problems::names()) {
     const Problem p = problems::make(name);
-    const networks::GivenNetwork network({p.W, p.bias, p.start}, 0);
+    const levels::GivenNetwork network({p.W, p.bias, p.start}, 0);
     const reference::Matrix difference =
         network.network().W - reference::Matrix(network.network().W.transpose());
     EXPECT_EQ(difference.norm(), 0) << name;
@@ -121,7 +121,7 @@ TEST(BoxSolver, OneAndTwoOutputsByHand) {
 TEST(BoxSolver, ModifiedNetworksComeToTheSameAnswer) {
   for (const char* name : {"box-random-100", "box-membrane-100", "box-membrane-1024", "box-random-1000"}) {
     const Problem p = problems::make(name);
-    const networks::GivenNetwork network({p.W, p.bias, p.start}, 0);
+    const levels::GivenNetwork network({p.W, p.bias, p.start}, 0);
     const auto rest =
         reference::relax(network.network(), one_by_one(p.W.rows), network.start(), 1e-12, 1'000'000);
     const BoxAnswer answer = least_on_box(p.W, p.bias, p.start);
@@ -143,14 +143,14 @@ class Memory : public ::testing::TestWithParam<const char*> {
   }
 
   /// The pattern with a tenth of its signs turned, relaxed neuron by neuron.
-  static double recalled(const networks::GivenNetwork& network, const std::vector<double>& pattern,
+  static double recalled(const levels::GivenNetwork& network, const std::vector<double>& pattern,
                          problems::Dice& dice) {
     reference::Vector start =
         Eigen::Map<const reference::Vector>(pattern.data(), static_cast<Eigen::Index>(pattern.size()));
     for (double& v : start)
       if (dice.unit() < 0.1) v = -v;
-    const auto rest =
-        reference::relax(network.network(), one_by_one(pattern.size()), start, 0, 200, spec::Output::binary);
+    const auto rest = reference::relax(network.network(), one_by_one(pattern.size()), start, 0, 200,
+                                       reference::Neuron::binary);
     EXPECT_TRUE(rest.converged);
     return overlap(pattern, rest.V);
   }
@@ -160,7 +160,7 @@ class Memory : public ::testing::TestWithParam<const char*> {
 TEST_P(Memory, RecallsATenthOfNPatterns) {
   const std::string name = GetParam();
   const Problem p = problems::make(name);
-  const networks::GivenNetwork network({p.W, p.bias, p.start}, 1);
+  const levels::GivenNetwork network({p.W, p.bias, p.start}, 1);
   problems::Dice dice(20261124);
   double sum = 0, least = 1;
   for (std::uint64_t k = 1; k <= p.W.rows / 10; ++k) {

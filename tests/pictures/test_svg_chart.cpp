@@ -46,6 +46,7 @@ TEST(SvgChart, FailedPointsAreHollowAndZerosAreCounted) {
   EXPECT_EQ(count_of(svg, "class=\"point\""), 2u);
   EXPECT_EQ(count_of(svg, "class=\"point failed\""), 1u);
   EXPECT_THAT(svg, HasSubstr("1 points have no place here"));
+  EXPECT_EQ(count_of(svg, "\"></text>"), 0u) << "lines without a number";
   EXPECT_THAT(svg, HasSubstr("a&lt;b"));
   EXPECT_THAT(svg, HasSubstr("data-command=\"run &lt;1&gt;\""));
   EXPECT_THAT(svg, HasSubstr(">floor</text>"));

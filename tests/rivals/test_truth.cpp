@@ -1,5 +1,4 @@
 // Two methods of SUNDIALS that share only the equation of motion, and a closed form.
-#include "sim/input/input_error.h"
 #include "sim/rivals/truth.h"
 #include "tests/rivals/rival_meshes.h"
 
@@ -34,23 +33,13 @@ TEST(RivalsTruth, OfTheBannerAgreesWithItself) {
   EXPECT_GT(truth.floor[1], 0) << "the two are one";
 }
 
-// Rivals and the truth walk through time, which a static scene has none of.
-TEST(RivalsTruth, RefusesAStaticScene) {
-  scene::Scene scene;
-  EXPECT_NO_THROW(surroundings_of(scene));
-  scene.incremental.rule = scene::Rule::statics;
-  EXPECT_NO_THROW(surroundings_of(scene)) << "the rule of a formulation that is not the scene's";
-  scene.motion.formulation = scene::Formulation::incremental;
-  EXPECT_THROW(surroundings_of(scene), input::InputError);
-}
-
 TEST(RivalsTruth, RefusesWhatItCannotTell) {
   const scene::Mesh mesh = hanging_weight();
   const Physics physics(mesh, falling);
-  EXPECT_THROW(solve(physics, {1, 0.5}), input::InputError);
-  EXPECT_THROW(solve(physics, {1}, 0.1), input::InputError);
-  EXPECT_THROW(make_method("verlet", physics, 0.1), input::InputError);
-  EXPECT_THROW(make_method("rk4", physics, 0), input::InputError);
+  EXPECT_THROW(solve(physics, {1, 0.5}), std::invalid_argument);
+  EXPECT_THROW(solve(physics, {1}, 0.1), std::invalid_argument);
+  EXPECT_THROW(make_method("verlet", physics, 0.1), std::invalid_argument);
+  EXPECT_THROW(make_method("rk4", physics, 0), std::invalid_argument);
 }
 
 } // namespace

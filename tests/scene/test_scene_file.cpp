@@ -194,6 +194,7 @@ TEST(ShippedScenes, flagsHaveThePapersNumbers) {
   const Scene literal = read_inputs("flag-400-literal", "", {}).scene;
   EXPECT_EQ(literal.probe.acceleration_memory, 1.0);
   EXPECT_EQ(literal.probe.force_on, ForceOn::acceleration);
+  EXPECT_EQ(literal.probe.energy_springs, EnergySprings::all);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Parts of an error, against sums done by hand.
-#include "sim/study/error_budget.h"
+#include "sim/study/budget/error_budget.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

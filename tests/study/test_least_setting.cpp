@@ -1,5 +1,5 @@
 // The search for the least setting, on tests of its own making: monotone, with luck in it, out of reach.
-#include "sim/study/least_setting.h"
+#include "sim/study/size/least_setting.h"
 
 #include <cmath>
 #include <cstdio>

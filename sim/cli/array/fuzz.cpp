@@ -1,12 +1,9 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
 #include "sim/cli/options.h"
-#include "sim/cli/usage.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
-#include "sim/cosim/shrink.h"
 #include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
-#include "sim/run/array_info.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
 
@@ -54,23 +51,14 @@ std::string command_of(const FuzzOptions& o, std::uint64_t first) {
 // Small enough to be read, in a file that shows it again.
 int tell(const FuzzOptions& o, const Ways& all, const cosim::Finding& finding) {
   fmt::print("case {} of seed {}: {}\n", finding.number, o.seed, finding.text);
-  const Ways two = cosim::involved(all, finding);
-  const cosim::ArrayJob whole = cosim::campaign_case(o.seed, finding.number).job;
-  run::CountProgress progress("smaller cases tried", 0);
-  std::uint64_t tried = 0;
-  const cosim::Differs still = [&](const cosim::ArrayJob& job) {
-    progress.count(++tried);
-    return !levels::stop_requested && cosim::differs_in_child(two, job);
-  };
   const std::filesystem::path file =
       std::filesystem::path(o.out) / fmt::format("seed-{}-case-{}.txt", o.seed, finding.number);
-  const std::string again = "hopmesh fuzz --replay " + shell_word(file.string());
-  const bool repeats = still(whole);
-  const cosim::ArrayJob job = repeats ? cosim::shrink(whole, still) : whole;
-  cosim::write_finding(file, {fmt::format("seed {} case {}", o.seed, finding.number), job}, two,
-                       {finding.text, "found by: " + command_of(o, finding.number), "again: " + again});
-  if (!repeats) fmt::print("by itself the case does not differ; it is kept as it is\n");
-  fmt::print("smallest that still differs: {}\n  {}\n  {}\n", cosim::describe(job), file.string(), again);
+  const std::string again = "hopmesh fuzz --replay " + input::shell_word(file.string());
+  const cosim::KeptFinding kept = cosim::keep_finding(
+      file, all, o.seed, finding, {"found by: " + command_of(o, finding.number), "again: " + again});
+  if (!kept.repeats) fmt::print("by itself the case does not differ; it is kept as it is\n");
+  fmt::print("smallest that still differs: {}\n  {}\n  {}\n", cosim::describe(kept.job), file.string(),
+             again);
   return differs;
 }
 

@@ -9,8 +9,8 @@ namespace hopmesh::cli {
 
 namespace {
 
-int info(const CommonOptions& o, bool toml) {
-  const levels::Prepared p = prepare(o);
+int info(const input::InputWords& words, bool toml) {
+  const levels::Prepared p = prepare(words);
   if (toml) {
     fmt::print("# scene\n{}\n# array\n{}", scene::scene_text(p.inputs.scene),
                input::array_text(p.inputs.array));
@@ -25,7 +25,7 @@ int info(const CommonOptions& o, bool toml) {
 } // namespace
 
 void add_info(CLI::App& program, int& exit_code) {
-  auto o = std::make_shared<CommonOptions>();
+  auto o = std::make_shared<input::InputWords>();
   auto toml = std::make_shared<bool>(false);
   CLI::App* verb =
       program.add_subcommand("info", "what the scene makes of the array: neurons, links, memory, cycles");

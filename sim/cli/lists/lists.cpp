@@ -1,6 +1,6 @@
 // hopmesh scenes, presets, levels, studies, problems: what comes with the program, a line each.
-#include "rtl_model/spec/array_rules.h"
 #include "sim/cli/options.h"
+#include "sim/input/presets.h"
 #include "sim/input/shipped.h"
 #include "sim/levels/level.h"
 #include "sim/networks/problems/problem.h"
@@ -20,17 +20,18 @@ void print_shipped(input::Shipped kind) {
     print_line(name, input::about_shipped(name, kind));
 }
 
+std::string with_default(const std::string& name, bool is_default) {
+  return name + (is_default ? " (default)" : "");
+}
+
 void print_presets() {
-  for (const spec::ArraySpec& array : spec::presets())
-    print_line(array.name + (array.name == spec::default_array().name ? " (default)" : ""),
-               fmt::format("{}, {}, {} lane{}, states of {} bits, links of {}", spec::name_of(array.schedule),
-                           spec::name_of(array.normaliser), array.lanes, array.lanes == 1 ? "" : "s",
-                           array.formats.state.width, array.formats.link.width));
+  for (const input::PresetWords& preset : input::preset_words())
+    print_line(with_default(preset.name, preset.is_default), preset.words);
 }
 
 void print_levels() {
   for (const levels::Level& level : levels::levels())
-    print_line(level.name + (level.name == levels::default_level().name ? " (default)" : ""), level.words);
+    print_line(with_default(level.name, level.name == levels::default_level().name), level.words);
 }
 
 void print_problems() {

@@ -14,18 +14,16 @@ namespace hopmesh::cli {
 namespace {
 
 struct CompareOptions {
-  CommonOptions common;
+  input::InputWords words;
   std::vector<std::string> levels = levels::compared_names();
   std::int64_t steps = 0;
 };
 
-int compare(CompareOptions& o) {
-  const std::string inputs = words_of(o.common);
-  if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
+int compare(const CompareOptions& o) {
   std::vector<const levels::Level*> rows;
   for (const std::string& name : o.levels)
     rows.push_back(&levels::level_named(name, "--levels", levels::sweeping));
-  const levels::Prepared p = prepare(o.common);
+  const levels::Prepared p = prepare(with_steps(o.words, o.steps));
   const auto is_reference = [](const levels::Level* l) { return l->kind == levels::Kind::reference; };
   std::stable_partition(rows.begin(), rows.end(), is_reference);
   for (const std::string& level : o.levels)
@@ -48,9 +46,9 @@ int compare(CompareOptions& o) {
         ready, *p.mesh, p.inputs.array, steps, [&](const levels::StepRow& row) { progress.step(row); },
         levels::stop_requested);
   }
-  fmt::print("{}", cosim::text_of(comparison, inputs, p.inputs.array));
+  fmt::print("{}", cosim::text_of(comparison, text_of(o.words), p.inputs.array));
   if (comparison.outcome == run::Outcome::interrupted) return interrupted;
-  return comparison.difference || comparison.outcome == run::Outcome::diverged ? differs : done;
+  return comparison.difference ? differs : exit_of(comparison.outcome);
 }
 
 } // namespace
@@ -59,7 +57,7 @@ void add_compare(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<CompareOptions>();
   CLI::App* verb = program.add_subcommand(
       "compare", "levels beside each other: bits, cycles, error against the reference");
-  add_common(*verb, o->common);
+  add_common(*verb, o->words);
   verb->add_option("--levels", o->levels,
                    fmt::format("two or more of {}", fmt::join(levels::level_names(levels::sweeping), ", ")))
       ->delimiter(',');

@@ -1,14 +1,9 @@
 // hopmesh run: one simulation, its files and its figures.
 #include "sim/cli/options.h"
-#include "sim/files/output_file.h"
+#include "sim/files/standard_streams.h"
 #include "sim/levels/interrupt.h"
-#include "sim/levels/level.h"
-#include "sim/run/array_info.h"
-#include "sim/run/checkpointer.h"
-#include "sim/run/progress.h"
-#include "sim/run/run_picture.h"
+#include "sim/run/flight.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::cli {
@@ -16,7 +11,7 @@ namespace hopmesh::cli {
 namespace {
 
 struct RunOptions {
-  CommonOptions common;
+  input::InputWords words;
   std::string level = levels::default_level().name, out, wave_window, wave_cells;
   levels::WaveRequest wave;
   std::int64_t steps = 0, threads = 1;
@@ -24,11 +19,6 @@ struct RunOptions {
   std::string resume;
   std::int64_t checkpoint_every = 0;
 };
-
-// The command that repeats a run; where its files go is no part of it, and --steps stands for itself.
-std::string command_of(const RunOptions& o) {
-  return "hopmesh run " + words_of(o.common) + " --level " + o.level;
-}
 
 levels::WaveRequest wave_of(const RunOptions& o, const levels::Level& level) {
   levels::WaveRequest wave = o.wave;
@@ -43,108 +33,44 @@ levels::WaveRequest wave_of(const RunOptions& o, const levels::Level& level) {
   return wave;
 }
 
-levels::PortRequest request_of(const RunOptions& o) {
-  levels::PortRequest request;
-  request.engine.threads = static_cast<std::size_t>(o.threads);
-  request.remarks = true;
-  return request;
+run::FlightPlan plan_of(const RunOptions& o) {
+  run::FlightPlan plan;
+  plan.steps = o.steps, plan.every = static_cast<std::uint64_t>(o.checkpoint_every);
+  plan.port.engine.threads = static_cast<std::size_t>(o.threads);
+  plan.port.remarks = true;
+  return plan;
 }
 
-bool asks_reference(const RunOptions& o, const levels::Level& level) {
-  return o.check || (level.checked && !o.no_check);
-}
-
-/// A run before its first step of this process, be it the very first or one behind a checkpoint.
-struct Begun {
-  levels::Prepared prepared;
-  levels::ReadyLevel level;
-  std::unique_ptr<run::RunFiles> files;
-  run::RunResult earlier; ///< what was done before
-  std::uint64_t every = 0;
-};
-
-Begun begin(RunOptions& o) {
+// In the command that repeats a run, where its files go is no part of it, and --steps stands for itself.
+run::Flight first_flight(const RunOptions& o) {
   const levels::Level& level = levels::level_named(o.level, "--level");
-  levels::PortRequest request = request_of(o);
-  request.wave = wave_of(o, level);
-  if (o.steps > 0) o.common.overrides.push_back("motion.steps=" + std::to_string(o.steps));
-  Begun run{prepare(o.common), {}, {}, {}, static_cast<std::uint64_t>(o.checkpoint_every)};
-  if (o.steps > 0) o.common.overrides.pop_back();
-  const scene::Inputs& inputs = run.prepared.inputs;
-  run.level = levels::make_ready(level, run.prepared, asks_reference(o, level), request);
-  const run::RunFacts facts{inputs, &level, command_of(o), static_cast<std::uint64_t>(o.steps),
-                            asks_reference(o, level)};
-  const std::filesystem::path folder = o.out.empty() ? default_folder(inputs.scene.name) : o.out;
-  run.files = std::make_unique<run::RunFiles>(folder, facts, *run.prepared.mesh, *run.level.mover);
-  return run;
+  run::FlightPlan plan = plan_of(o);
+  plan.level = &level, plan.port.wave = wave_of(o, level);
+  plan.command = fmt::format("hopmesh run {} --level {}", text_of(o.words), o.level);
+  plan.check = o.check || (level.checked && !o.no_check);
+  levels::Prepared prepared = prepare(with_steps(o.words, o.steps));
+  const auto folder = results_folder(o.out, prepared.inputs.scene.name);
+  return {std::move(prepared), folder, plan};
 }
 
-// The checkpoint knows the run; only its length, and what changes no bit, may be asked for anew.
-Begun begin_again(const RunOptions& o) {
+run::Flight next_flight(const RunOptions& o) {
   run::ResumedRun found = run::read_run(o.resume);
-  const run::Checkpoint& saved = found.saved;
-  const auto steps = static_cast<std::uint64_t>(o.steps);
-  if (steps > 0 && steps <= saved.state.step)
-    throw input::input_error("", 0, "--steps", std::to_string(steps),
-                             fmt::format("more than the {} that are done", saved.state.step));
-  if (steps > 0) found.inputs.scene.motion.steps = o.steps;
-  Begun run;
-  run.every = o.checkpoint_every > 0 ? static_cast<std::uint64_t>(o.checkpoint_every) : saved.every;
-  run.prepared = {std::move(found.inputs), std::move(found.mesh)};
-  const levels::Level& level = levels::level_named(saved.level, saved.file);
-  run.level = levels::make_ready(level, run.prepared, saved.check, request_of(o));
-  run.level.mover->restore(saved.state, saved.ranges);
-  run.earlier.rows = std::move(found.rows);
-  run.earlier.wall_seconds = saved.wall_seconds;
-  const run::RunFacts facts{run.prepared.inputs, &level, saved.command, steps > 0 ? steps : saved.asked,
-                            saved.check};
-  run.files = std::make_unique<run::RunFiles>(o.resume, facts, *run.prepared.mesh, std::move(found.streams));
-  return run;
+  const std::uint64_t steps_done = found.saved.state.step;
+  if (o.steps > 0 && static_cast<std::uint64_t>(o.steps) <= steps_done)
+    throw input::input_error("", 0, "--steps", std::to_string(o.steps),
+                             fmt::format("more than the {} that are done", steps_done));
+  return {std::move(found), o.resume, plan_of(o)};
 }
 
-/// All steps that are left. `trouble`: why an interrupted run cannot be resumed where it ended, if so.
-run::RunResult fly(Begun& run, std::string& trouble) {
-  const auto steps = static_cast<std::uint64_t>(run.prepared.inputs.scene.motion.steps);
-  const std::uint64_t before = run.earlier.rows.size();
-  run::Progress progress(steps, before);
-  run::Checkpointer safe(*run.files, run.every, run.earlier.wall_seconds, [&](std::uint64_t done) {
-    if (run.every > 0) progress.say(fmt::format("checkpoint: {} of {} steps are safe", done, steps));
-  });
-  if (before > 0) progress.say(fmt::format("checkpoint: goes on behind {} of {} steps", before, steps));
-  if (before == 0 && run.every > 0)
-    safe.save(*run.level.mover); // a kill before the first K steps is resumable
-  auto result = run::simulate(*run.level.mover, steps, {run.files.get(), &safe, &progress},
-                              levels::stop_requested, run.earlier);
-  try {
-    if (result.outcome == run::Outcome::interrupted) safe.save(*run.level.mover);
-  } catch (const files::WriteError& error) {
-    trouble = error.what(); // the results may be small enough all the same
-  }
-  return result;
-}
-
-int run(RunOptions& o) {
+int run(const RunOptions& o) {
   levels::catch_interrupts(); // from here on a run that is stopped leaves a folder to go on with
-  Begun run = o.resume.empty() ? begin(o) : begin_again(o);
-  std::string trouble;
-  const run::RunResult result = fly(run, trouble);
-  const levels::Mover& motion = *run.level.mover;
-  const run::RunFacts& facts = run.files->facts();
-  if (run.level.port) run.level.port->finish();
-  run.files->finish(result, motion);
-  fmt::print("{}: {}\n", facts.inputs.scene.name, result.sentence);
-  fmt::print("{}", run::text_of(run::run_tables(facts, *run.prepared.mesh, result, motion.ranges())));
-  const std::string folder = run.files->folder().string();
-  fmt::print("Results\n  {}\n", folder);
-  const bool stopped = result.outcome == run::Outcome::interrupted;
-  if (stopped && trouble.empty()) fmt::print("To go on\n  hopmesh run --resume {}\n", shell_word(folder));
-  if (trouble.empty() && run.level.port) trouble = run.level.port->trouble();
-  if (!trouble.empty()) {
-    fmt::print(stderr, "hopmesh: {}\n", trouble);
-    return bad_input;
-  }
-  if (stopped) return interrupted;
-  return result.outcome == run::Outcome::diverged ? differs : done;
+  run::Flight flight = o.resume.empty() ? first_flight(o) : next_flight(o);
+  const run::RunResult result = flight.fly();
+  fmt::print("{}", flight.text_of(result));
+  const std::string trouble = flight.trouble();
+  if (trouble.empty()) return exit_of(result.outcome);
+  files::say(fmt::format("hopmesh: {}\n", trouble));
+  return bad_input;
 }
 
 void expect_scene_or_resume(const CLI::App& verb) {
@@ -169,7 +95,7 @@ void allow_resume(CLI::App& verb, RunOptions& o) {
 void add_run(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "one simulation");
-  add_common(*verb, o->common);
+  add_common(*verb, o->words);
   verb->add_option("--level", o->level,
                    fmt::format("{}, or a rival in double: {}",
                                fmt::join(levels::level_names(levels::sweeping), " | "),

@@ -1,6 +1,8 @@
 // hopmesh sweep: every point of a study, a row each.
 #include "sim/cli/options.h"
-#include "sim/cli/studies/study_run.h"
+#include "sim/cli/studies/study_options.h"
+
+#include <fmt/format.h>
 
 namespace hopmesh::cli {
 
@@ -12,8 +14,10 @@ void add_sweep(CLI::App& program, int& exit_code) {
                "Exit: 0 done (points that diverge or crash are rows), 1 points are missing, 2 bad input, 130 "
                "interrupted (the same command goes on).");
   verb->callback([o, &exit_code] {
-    std::filesystem::path folder;
-    exit_code = run_study(*o, study::read_study(o->study), folder);
+    const study::Study study = study::read_study(o->study);
+    const study::StudyEnd end = study::run_study(study, order_of(*o, study));
+    fmt::print("{}", end.text);
+    exit_code = exit_of(end.outcome);
   });
 }
 

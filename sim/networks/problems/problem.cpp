@@ -1,5 +1,6 @@
 #include "sim/networks/problems/problem.h"
 
+#include "sim/input/input_error.h"
 #include "sim/networks/problems/making.h"
 
 #include <map>
@@ -90,6 +91,13 @@ const std::vector<std::string>& names() {
     return made;
   }();
   return all;
+}
+
+void check_name(const std::string& name, const std::string& where) {
+  if (std::find(names().begin(), names().end(), name) == names().end())
+    throw input::input_error("", 0, where, input::in_quotes(name),
+                             "a file, or a problem that `hopmesh problems` lists",
+                             input::nearest_name(name, names()));
 }
 
 const std::string& about(const std::string& name) {

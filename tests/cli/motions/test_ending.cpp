@@ -48,6 +48,17 @@ TEST_F(CliEnding, TheLiteralEquationDivergesWithCompleteFiles) {
   EXPECT_EQ(read_json(at("r/manifest.json"))["outcome"], "diverged");
 }
 
+/// docs/method/theory.md, section 4: equation 6 as printed, equation 7 as printed, and both.
+TEST_F(CliEnding, EachEquationAsPrintedDivergesAndBothDoSoonest) {
+  const auto steps_of = [&](const std::string& scene) {
+    EXPECT_EQ(hopmesh("run " + scene + " --no-check --out " + scene).exit_code, 1) << scene;
+    return read_json(at(scene + "/stats.json"))["steps"].get<int>();
+  };
+  const int both = steps_of("flag-400-literal"), energies = steps_of("flag-400-eq6");
+  EXPECT_LT(both, energies);
+  EXPECT_LT(energies, steps_of("flag-400-eq7"));
+}
+
 TEST_F(CliEnding, NumbersBeyondDoubleAreDivergenceToo) {
   const Finished f =
       hopmesh("run two-nodes --set force.gravity=[0,0,-1e15] --set motion.time_step=1e15 --out r");

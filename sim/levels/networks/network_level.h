@@ -1,0 +1,37 @@
+// A level that relaxes a given network: the reference in double, or an array behind the firmware's driver.
+#pragma once
+
+#include "rtl_model/spec/relaxation.h"
+#include "rtl_model/spec/schedule.h"
+#include "sim/levels/array_port.h"
+#include "sim/levels/networks/given_network.h"
+
+#include <memory>
+#include <optional>
+
+namespace hopmesh::levels {
+
+class NetworkLevel {
+ public:
+  virtual ~NetworkLevel() = default;
+  /// From the start until no output moves by more than `threshold` in a sweep, or so many sweeps. The
+  /// reference has neither cycles nor codes: they are 0. Throws Stopped where the user stops an
+  /// array.
+  virtual spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) = 0;
+  /// Puts the start back.
+  virtual void restart() = 0;
+  /// Another sweep; the largest |change| of an output.
+  virtual double sweep() = 0;
+  virtual const Eigen::VectorXd& outputs() const = 0;
+  /// Weights and biases that did not fit the formats of an array.
+  virtual std::uint32_t clipped() const { return 0; }
+  /// Energy of the outputs in the network as it stands in an array's memories, in units of the one that was
+  /// given; none where there are no memories, or rows were scaled one by one.
+  virtual std::optional<double> loaded_energy() { return std::nullopt; }
+};
+
+std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array);
+std::unique_ptr<NetworkLevel> array_level(const GivenNetwork& network, const spec::ArraySpec& array,
+                                          ArrayPort& port);
+
+} // namespace hopmesh::levels

@@ -1,0 +1,86 @@
+#include "sim/networks/solve_task.h"
+
+#include "rtl_model/spec/array_rules.h"
+#include "sim/files/folder_lock.h"
+#include "sim/files/output_file.h"
+#include "sim/input/input_error.h"
+#include "sim/levels/interrupt.h"
+#include "sim/networks/problems/problem.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace hopmesh::networks {
+
+namespace {
+
+// A file has a folder or an ending; a bare word is a name.
+bool is_name(const std::string& word) {
+  return word.find_first_of("/.") == std::string::npos;
+}
+
+SolveTask task_of_problem(const NetworkFiles& files, std::int64_t seed) {
+  const std::string& name = files.weights;
+  problems::check_name(name, "W");
+  if (!files.bias.empty()) throw input::input_error("", 0, "BIAS", files.bias, "none: a problem has its own");
+  problems::Problem p = problems::make(name, static_cast<std::uint64_t>(std::max<std::int64_t>(1, seed)));
+  SolveTask task{name,
+                 {std::move(p.W), std::move(p.bias), std::move(p.start)},
+                 p.binary ? "binary" : "modified",
+                 std::move(p.verdict)};
+  if (!files.start.empty()) task.data.start = read_start(files.start, task.data.W.rows);
+  return task;
+}
+
+void check_array(const spec::ArraySpec& array, const spec::Topology& topology, const std::string& file) {
+  if (const auto fault = spec::validate(array, topology.most_taps()))
+    throw input::input_error(file, 0, fault->key, fault->found, fault->expected);
+}
+
+} // namespace
+
+SolveTask read_task(const NetworkFiles& files, std::int64_t seed) {
+  if (is_name(files.weights)) return task_of_problem(files, seed);
+  if (seed > 0) throw input::input_error("", 0, "--seed", "a file", "the name of a problem");
+  return {files.weights, read_network(files), "", nullptr};
+}
+
+std::vector<std::string> rule_names() {
+  return {spec::output_names.begin(), spec::output_names.end()};
+}
+
+void apply_rule(const std::string& rule, bool is_set, const SolveTask& task, spec::ArraySpec& array) {
+  const std::string own(spec::name_of(array.output));
+  if (is_set && !rule.empty() && rule != own)
+    throw input::input_error("", 0, "--rule", rule + " beside --set array.output=" + own,
+                             "one of the two, or the same in both");
+  const std::string& wanted = !rule.empty() ? rule : is_set ? own : task.rule;
+  if (!wanted.empty()) array.output = *spec::mode_named<spec::Output>(wanted, spec::output_names);
+}
+
+TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const std::string& file,
+                   const levels::Level& row, const SolveOptions& options,
+                   const std::filesystem::path& folder) {
+  const GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
+  check_array(array, network.topology(), file);
+  if (!folder.empty()) files::check_writable(folder, network.neurons() * 32);
+  std::optional<files::FolderLock> lock; // before the work: two of them would mix their files
+  if (!folder.empty()) lock.emplace(folder);
+  levels::catch_interrupts();
+  levels::PortRequest request;
+  request.remarks = true;
+  std::unique_ptr<levels::ArrayPort> port;
+  if (row.has_bus()) port = row.make_port(array, network.topology(), request);
+  const auto level = port ? array_level(network, array, *port) : reference_level(network, array);
+  const Solution solution = solve(network, *level, options);
+  SolveLabel label{task.name, row.name, std::string(spec::name_of(array.output)),
+                   std::string(spec::name_of(array.schedule)), ""};
+  if (task.verdict) label.verdict = task.verdict({solution.V.data(), solution.V.data() + solution.V.size()});
+  if (!folder.empty()) {
+    write_sweeps(folder / "solve.csv", network, *level, solution, levels::stop_requested);
+    write_solution(folder, label, network, solution);
+  }
+  return {text_of(label, network, solution), solution.rest.converged};
+}
+
+} // namespace hopmesh::networks

@@ -1,0 +1,107 @@
+#include "sim/study/budget/budget.h"
+
+#include "sim/files/output_file.h"
+#include "sim/levels/exact_step.h"
+#include "sim/levels/level.h"
+#include "sim/levels/reference_mover.h"
+#include "sim/run/progress.h"
+#include "sim/run/run_totals.h"
+#include "sim/study/truth_store.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+namespace {
+
+constexpr double at_rest = 1e-14; // of an output in double: nothing moves any more
+constexpr std::uint64_t most_times = 10;
+
+std::vector<double> times_of(const scene::MotionKeys& motion) {
+  std::vector<double> times;
+  const auto steps = static_cast<std::uint64_t>(motion.steps), count = std::min(steps, most_times);
+  for (std::uint64_t k = 1; k <= count; ++k) {
+    const std::uint64_t step = steps * k / count;
+    times.push_back(static_cast<double>(step) * motion.time_step);
+  }
+  return times;
+}
+
+scene::Scene at_rest_scene(scene::Scene scene, std::int64_t rest_sweeps) {
+  scene.relax.threshold = std::min(scene.relax.threshold, at_rest);
+  scene.relax.max_sweeps = std::max(scene.relax.max_sweeps, rest_sweeps);
+  return scene;
+}
+
+/// Adds a link to the chain; false where its motion was interrupted.
+bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion, Budget& budget) {
+  const auto steps = static_cast<std::uint64_t>(motion.steps);
+  run::Snapshots snapshots(budget.times, motion.time_step);
+  const run::RunResult result = run::simulate_shown(mover, steps, {&snapshots});
+  if (result.outcome == run::Outcome::diverged)
+    budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
+  const std::uint64_t unfinished =
+      run::count_of(result.rows, &levels::StepRow::converged, levels::Summary::unmet);
+  if (unfinished > 0)
+    link.motion += fmt::format(" ({} of {} steps ended by their sweeps)", unfinished, steps);
+  link.at = std::move(snapshots.at);
+  budget.chain.push_back(std::move(link));
+  return result.outcome != run::Outcome::interrupted;
+}
+
+/// False where the user stopped it.
+bool fly_all(const levels::Prepared& p, std::int64_t rest_sweeps, Budget& budget) {
+  const scene::Scene& scene = p.inputs.scene;
+  const levels::ReadyLevel array = levels::make_ready(levels::default_level(), p);
+  levels::ReferenceMover same(scene, *p.mesh, p.inputs.array);
+  levels::ReferenceMover rest(at_rest_scene(scene, rest_sweeps), *p.mesh, p.inputs.array);
+  std::optional<levels::ExactStep> exact;
+  if (levels::ExactStep::exists_for(scene)) exact.emplace(scene, *p.mesh);
+  const auto link = [&](levels::Mover& mover, const std::string& motion, const std::string& mends) {
+    return fly(mover, {motion, mends, {}}, scene.motion, budget);
+  };
+  return link(*array.mover, "array " + p.inputs.array.name, "quantisation") &&
+         link(same, "reference, the same sweeps at most and threshold", "unfinished relaxation") &&
+         link(rest, "reference, relaxed to rest", "formulation") &&
+         (!exact || link(*exact, scene.formulation_name() + ", each step solved exactly", "time step"));
+}
+
+void add_truth(const levels::Prepared& p, const std::filesystem::path& folder, Budget& budget) {
+  const Truth truth = TruthStore(folder).at(p.inputs, *p.mesh, budget.times);
+  if (truth.positions.empty())
+    budget.troubles.emplace_back("truth: SUNDIALS gave up, so there is nothing to measure against");
+  budget.floor = truth.floor;
+  budget.chain.push_back({"truth: m dv/dt = springs - m c v + m force, by SUNDIALS", "", truth.positions});
+}
+
+void add_rows(Budget& budget) {
+  for (std::size_t k = 0; k < budget.times.size(); ++k) {
+    std::vector<const run::Positions*> positions;
+    for (const BudgetLink& link : budget.chain)
+      if (k < link.at.size() && !link.at[k].empty()) positions.push_back(&link.at[k]);
+    if (positions.size() < budget.chain.size()) return;
+    budget.rows.push_back(budget_of(positions));
+    budget.rows.back().time = budget.times[k];
+    budget.rows.back().floor = budget.floor[k];
+  }
+}
+
+} // namespace
+
+void check_budget(const levels::Prepared& p, const std::filesystem::path& folder) {
+  TruthStore::expect_known(p.inputs.scene);
+  files::check_writable(folder, 0);
+}
+
+std::optional<Budget> work_out_budget(const levels::Prepared& p, std::int64_t rest_sweeps,
+                                      const std::filesystem::path& folder) {
+  Budget budget;
+  budget.times = times_of(p.inputs.scene.motion);
+  if (!fly_all(p, rest_sweeps, budget)) return std::nullopt;
+  add_truth(p, folder, budget);
+  add_rows(budget);
+  return budget;
+}
+
+} // namespace hopmesh::study

@@ -1,0 +1,117 @@
+#include "sim/study/size/size.h"
+
+#include "sim/files/running_check.h"
+#include "sim/levels/interrupt.h"
+#include "sim/levels/level.h"
+#include "sim/levels/reference_mover.h"
+#include "sim/run/run_totals.h"
+#include "sim/study/size/size_report.h"
+#include "sim/study/truth_store.h"
+
+#include <fmt/format.h>
+
+namespace hopmesh::study {
+
+namespace {
+
+constexpr const char* truth = "truth";
+
+// Rounding may keep an array from rest for ever, so that every step ends by max_sweeps: such an array is
+// small only at first sight. So much longer than double may an array relax.
+constexpr double most_sweeps = 1.1;
+
+/// Where the motion should end.
+struct Target {
+  run::Positions positions;
+  std::uint64_t sweeps = 0;      ///< of the reference, in all
+  double reached = 0, floor = 0; ///< how near double itself comes to the truth, and how far that is known, m
+  std::string trouble;           ///< why there is no target, if so
+};
+
+// The end of the reference's free motion, or of the exact one, which lies in the folder.
+Target target_of(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder) {
+  const scene::MotionKeys& motion = p.inputs.scene.motion;
+  levels::ReferenceMover reference(p.inputs.scene, *p.mesh, p.inputs.array);
+  const run::RunResult result = run::simulate_shown(reference, static_cast<std::uint64_t>(motion.steps));
+  if (result.outcome == run::Outcome::interrupted) throw SearchStopped();
+  Target target;
+  target.positions = reference.positions();
+  target.sweeps = run::count_of(result.rows, &levels::StepRow::sweeps, levels::Summary::sum);
+  if (result.outcome == run::Outcome::diverged) target.trouble = "the reference: " + result.sentence;
+  if (order.against != truth || !target.trouble.empty()) return target;
+  const double end = motion.time_step * static_cast<double>(motion.steps);
+  const Truth exact = TruthStore(folder).at(p.inputs, *p.mesh, {end});
+  if (exact.positions.empty()) {
+    target.trouble = "SUNDIALS gave up: there is no truth to measure against";
+    return target;
+  }
+  target.reached = run::rms_distance(target.positions, exact.positions[0]);
+  target.floor = exact.floor[0];
+  target.positions = exact.positions[0];
+  return target;
+}
+
+// Ranges are of values: the array as given shows them.
+std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
+  run::simulate(*level.mover, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
+                levels::stop_requested);
+  if (levels::stop_requested) throw SearchStopped();
+  return level.mover->ranges();
+}
+
+std::uint64_t hash_of(const SizeOrder& order, const levels::Prepared& p) {
+  files::RunningCheck check;
+  for (const std::string& text :
+       {order.against, scene::scene_text(p.inputs.scene), input::array_text(p.inputs.array)})
+    check.add(text.data(), text.size() + 1);
+  return check.value();
+}
+
+/// "" where double itself comes as near as the order asks.
+std::string why_not(const SizeOrder& order, const Target& target) {
+  if (!target.trouble.empty()) return target.trouble;
+  if (order.error >= target.reached) return "";
+  return fmt::format("{} m is less than double itself reaches: the reference ends {:.3g} m from the truth",
+                     order.error, target.reached);
+}
+
+SizeEnd search(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder,
+               const TrialFolder& kept) {
+  const std::string& name = p.inputs.scene.name;
+  const Target target = target_of(order, p, folder);
+  const std::string why = why_not(order, target);
+  if (!why.empty()) return {run::Outcome::failed, fmt::format("{}: {}\n", name, why)};
+  Sizing sizing(p.inputs, *p.mesh);
+  sizing.keep_integer_bits(ranges_of(p));
+  SizeTrials trials(sizing, kept, target.positions, order.workers);
+  const auto sweeps = static_cast<std::uint64_t>(most_sweeps * static_cast<double>(target.sweeps));
+  const SizeGoal goal{order.error, order.time_per_step, sweeps, p.inputs.array.clock_mhz,
+                      p.mesh->topology().most_taps()};
+  const SizeFound found = find_size(sizing, goal, trials);
+  if (!found.reached) return {run::Outcome::failed, fmt::format("{}: {}\n", name, found.why)};
+  const SizeReport report{order, p, sizing, found, folder, target.reached, target.floor};
+  write_size(report);
+  return {run::Outcome::finished, text_of(report)};
+}
+
+} // namespace
+
+std::vector<std::string> size_judges() {
+  return {levels::level_names({levels::Kind::reference}).front(), truth};
+}
+
+SizeEnd size_array(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder) {
+  const Sizing checked(p.inputs, *p.mesh); // refuses before anything is written
+  if (order.against == truth) TruthStore::expect_known(p.inputs.scene);
+  const TrialFolder kept(folder, hash_of(order, p));
+  try {
+    return search(order, p, folder, kept);
+  } catch (const SearchStopped&) {
+    return {run::Outcome::interrupted,
+            fmt::format("{}: stopped; what was tried is safe in {}, and the same command goes on\n",
+                        p.inputs.scene.name, folder.string())};
+  }
+}
+
+} // namespace hopmesh::study

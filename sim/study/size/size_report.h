@@ -1,0 +1,24 @@
+// What a search for the least array found: as files, and in words.
+#pragma once
+
+#include "sim/study/size/size.h"
+#include "sim/study/size/size_search.h"
+
+namespace hopmesh::study {
+
+/// All of it must outlive the report.
+struct SizeReport {
+  const SizeOrder& order;
+  const levels::Prepared& prepared;
+  const Sizing& sizing;
+  const SizeFound& found;
+  const std::filesystem::path& folder;
+  double reached, floor; ///< of the truth: how near double itself comes, and how far it is known, m
+};
+
+/// size.toml, the array, and size.csv, the evidence.
+void write_size(const SizeReport& report);
+/// A few lines, with the commands that show the size.
+std::string text_of(const SizeReport& report);
+
+} // namespace hopmesh::study
