@@ -2,6 +2,7 @@
 
 #include "sim/input/input_error.h"
 #include "sim/input/number.h"
+#include "sim/input/utf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,34 @@ void check_name(const std::string& name, const std::string& flag, const std::vec
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw input::input_error("", 0, flag, name, fmt::format("{}", fmt::join(names, ", ")),
                              input::nearest_name(name, names));
+}
+
+namespace {
+
+/// Folders and waves are only opened under their name; every other word gets into files of results.
+bool is_only_a_path(const CLI::Option& option) {
+  return option.check_lname("out") || option.check_lname("resume") || option.check_lname("wave");
+}
+
+std::string fault_of(const CLI::Option& option, const std::string& text) {
+  const bool flag = !option.get_positional();
+  if (flag && text.empty()) return "found an empty value, expected " + option.get_description();
+  if (!is_only_a_path(option) && !input::is_utf8(text))
+    return fmt::format("found {}, expected UTF-8", input::in_quotes(text));
+  double number = 0;
+  const bool real = option.get_type_name().rfind("FLOAT", 0) == 0;
+  if (real && input::parse_number(text, number) && !std::isfinite(number))
+    return fmt::format("found {}, expected a finite number", text);
+  return "";
+}
+
+} // namespace
+
+void check_values(CLI::App& verb) {
+  for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return o->get_type_size() > 0; })) {
+    const auto judge = [option](const std::string& text) { return fault_of(*option, text); };
+    option->check(CLI::Validator(judge, ""));
+  }
 }
 
 } // namespace hopmesh::cli

@@ -17,6 +17,10 @@ CLI::Validator share();
 /// A name out of a few.
 CLI::Validator one_name_of(const std::vector<std::string>& names);
 
+/// What no flag of a verb takes, whatever its meaning: an empty value (of a shell's variable that is not
+/// set), bytes that are no UTF-8 where they would get into results, a number that is none.
+void check_values(CLI::App& verb);
+
 /// Throws input::InputError for a name that is none of `names`; `flag` is where it stood.
 void check_name(const std::string& name, const std::string& flag, const std::vector<std::string>& names);
 

@@ -3,11 +3,15 @@
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
 #include "sim/cli/verbs.h"
+#include "sim/files/standard_streams.h"
+#include "sim/run/children.h"
 #include "sim/run/write_error.h"
 #include "version.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
+#include <new>
+#include <system_error>
 #include <systemc>
 
 using namespace hopmesh;
@@ -18,6 +22,12 @@ std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
   return text;
+}
+
+/// A line on stderr, and the exit code of what cannot be done.
+int told(const std::string& line) {
+  files::say("hopmesh: " + one_line(line) + '\n');
+  return cli::bad_input;
 }
 
 int program(int argc, char** argv) {
@@ -40,22 +50,39 @@ int program(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
-    fmt::print(stderr, "hopmesh: {} (`hopmesh help` tells the usage)\n",
-               one_line(cli::usage_sentence(app, e)));
-  } catch (const input::InputError& e) {
-    fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
-  } catch (const run::WriteError& e) {
-    fmt::print(stderr, "hopmesh: {}\n", one_line(e.what()));
+    return told(cli::usage_sentence(app, e) + " (`hopmesh help` tells the usage)");
   }
-  return cli::bad_input;
 }
 
-// Anything else is a defect of ours: told in a line as well, and never taken for bad input.
+/// The program, and what it printed has arrived.
+int whole_program(int argc, char** argv) {
+  const int exit_code = program(argc, argv);
+  files::finish_stdout();
+  return exit_code;
+}
+
+/// What the system refuses (a process, a thread, a folder, a place for what is printed) is no defect of ours.
+int told_refusal(const std::system_error& e) {
+  return told(files::stdout_failed() ? "stdout: " + e.code().message() : e.what());
+}
+
+// What is left in the end is a defect: told in a line as well, and never taken for bad input.
 int guarded(int argc, char** argv) {
   try {
-    return program(argc, argv);
+    return whole_program(argc, argv);
+  } catch (const input::InputError& e) {
+    return told(e.what());
+  } catch (const run::WriteError& e) {
+    return told(e.what());
+  } catch (const run::Refused& e) {
+    return told(e.what());
+  } catch (const std::bad_alloc&) {
+    return told("memory: found less than this takes, expected a smaller mesh, fewer at a time (-j), or a "
+                "higher limit (ulimit -v)");
+  } catch (const std::system_error& e) {
+    return told_refusal(e);
   } catch (const std::exception& e) {
-    fmt::print(stderr, "hopmesh: internal error: {}\n", one_line(e.what()));
+    told(fmt::format("internal error: {}", e.what()));
     return cli::differs;
   }
 }
@@ -67,6 +94,7 @@ int sc_main(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  files::open_standard_streams();
   setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   return sc_core::sc_elab_and_sim(argc, argv);
 }

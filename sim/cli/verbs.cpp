@@ -1,5 +1,7 @@
 #include "sim/cli/verbs.h"
 
+#include "sim/cli/checks.h"
+
 namespace hopmesh::cli {
 
 using AddVerb = void(CLI::App& program, int& exit_code);
@@ -44,7 +46,9 @@ constexpr Verb verbs[] = {
 void add_verbs(CLI::App& program, int& exit_code) {
   for (const Verb& verb : verbs) {
     verb.add(program, exit_code);
-    program.get_subcommands([](const CLI::App*) { return true; }).back()->group(verb.group);
+    CLI::App* added = program.get_subcommands([](const CLI::App*) { return true; }).back();
+    added->group(verb.group);
+    check_values(*added);
   }
 }
 

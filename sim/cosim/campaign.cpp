@@ -8,11 +8,15 @@
 #include "sim/input/number.h"
 #include "sim/run/children.h"
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fmt/format.h>
 #include <list>
+#include <memory>
+#include <new>
 #include <poll.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace hopmesh::cosim {
@@ -53,6 +57,7 @@ namespace {
 
 struct Batch {
   std::uint64_t first, count;
+  bool again = false; ///< its first child was ended from outside
 };
 
 // ---- in the child ----
@@ -97,6 +102,8 @@ int run_batch(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
   std::signal(SIGALRM, SIG_DFL);
   try {
     do_batch(ways, seed, batch, pipe);
+  } catch (const std::bad_alloc&) {
+    throw; // nothing that a level did wrong
   } catch (const std::exception& e) {
     say(pipe, fmt::format("e {}\n", e.what()));
   }
@@ -125,7 +132,8 @@ class Parent {
  public:
   Parent(const Ways& ways, const CampaignPlan& plan, const std::function<void(std::uint64_t)>& progress,
          const std::atomic<bool>& stop)
-      : ways_(ways), plan_(plan), progress_(progress), stop_(stop), next_(plan.first) {}
+      : ways_(ways), plan_(plan), progress_(progress), stop_(stop), workers_(plan.children),
+        next_(plan.first) {}
 
   CampaignResult run() {
     const auto began = std::chrono::steady_clock::now();
@@ -133,9 +141,8 @@ class Parent {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     };
     while (!stop_ && !result_.finding) {
-      while (children_.size() < plan_.children && next_ - plan_.first < plan_.cases &&
-             seconds() < plan_.seconds)
-        begin_batch();
+      while (children_.size() < workers_ && next_ - plan_.first < plan_.cases && seconds() < plan_.seconds)
+        begin_next_batch();
       if (children_.empty()) break;
       read_children();
     }
@@ -149,16 +156,27 @@ class Parent {
   }
 
  private:
-  void begin_batch() {
+  // As many at a time as the system has processes for.
+  void begin_next_batch() {
     const Batch batch{next_, std::min(batch_cases, plan_.cases - (next_ - plan_.first))};
+    try {
+      begin(batch);
+      next_ += batch.count;
+    } catch (const std::system_error&) {
+      if (children_.empty()) throw;
+      workers_ = children_.size();
+    }
+  }
+
+  void begin(const Batch& batch) {
     int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("no pipe to a child process can be made");
+    if (pipe(ends) != 0)
+      throw std::system_error(errno, std::generic_category(), "no pipe to a child process can be made");
+    const std::unique_ptr<int, void (*)(int*)> writer(&ends[1], [](int* end) { close(*end); });
     children_.emplace_back(batch, ends[0], [&] {
       close(ends[0]);
       return run_batch(ways_, plan_.seed, batch, ends[1]);
     });
-    close(ends[1]);
-    next_ += batch.count;
   }
 
   void read_children() {
@@ -206,6 +224,12 @@ class Parent {
 
   void end(std::list<BatchChild>::iterator child) {
     const run::ChildEnd end = child->process.wait();
+    if (end.exit_code == run::child_refused) throw run::Refused(end.message);
+    if (!child->done && end.from_outside() && !child->batch.again) {
+      const Batch batch{child->batch.first, child->batch.count, true};
+      children_.erase(child);
+      return begin(batch);
+    }
     if (!child->done) {
       const std::string how = end.signal ? run::describe(end) : "ended before its time";
       found({child->at, 0,
@@ -227,6 +251,7 @@ class Parent {
   const CampaignPlan plan_;
   const std::function<void(std::uint64_t)>& progress_;
   const std::atomic<bool>& stop_;
+  std::size_t workers_;
   std::uint64_t next_, done_ = 0;
   std::list<BatchChild> children_;
   CampaignResult result_;

@@ -1,9 +1,16 @@
 #include "sim/engine/team.h"
 
+#include <exception>
+
 namespace hopmesh::engine {
 
+// A system that makes no more threads still has the work done, by those there are: a team changes no result.
 Team::Team(std::size_t members) {
-  for (std::size_t m = 1; m < members; ++m) threads_.emplace_back([this, m] { serve(m); });
+  threads_.reserve(members > 0 ? members - 1 : 0);
+  try {
+    for (std::size_t m = 1; m < members; ++m) threads_.emplace_back([this, m] { serve(m); });
+  } catch (const std::exception&) {
+  }
 }
 
 Team::~Team() {

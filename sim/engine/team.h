@@ -14,6 +14,7 @@ namespace hopmesh::engine {
 /// give way after a while, since the machine may have fewer cores than it says.
 class Team {
  public:
+  /// As many members as asked for, or as the system has threads for.
   explicit Team(std::size_t members);
   ~Team();
   Team(const Team&) = delete;

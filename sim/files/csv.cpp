@@ -26,6 +26,20 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
   end_row();
 }
 
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, CheckedRows)
+    : file_(path), columns_(header.size()) {
+  for (const auto& name : header) cell(std::string_view(name));
+  line_ += ",check";
+  end_row();
+  checked_ = true;
+}
+
+std::string check_of_row(std::string_view text) {
+  RunningCheck check;
+  check.add(text.data(), text.size());
+  return fmt::format("{:016x}", check.value());
+}
+
 CsvWriter& CsvWriter::raw(std::string_view text) {
   if (filled_++ > 0) line_ += ',';
   line_ += text;
@@ -45,6 +59,7 @@ void CsvWriter::end_row() {
   if (filled_ != columns_)
     throw std::logic_error(
         fmt::format("{}: a row of {} cells under a header of {}", file_.path().string(), filled_, columns_));
+  if (checked_) line_ += ',' + check_of_row(line_);
   line_ += '\n';
   file_.write(line_);
   line_.clear();

@@ -14,11 +14,16 @@
 
 namespace hopmesh::files {
 
+/// Says that each row of a table ends in a cell that proves it, in a column of its own.
+struct CheckedRows {};
+
 /// A header, then rows of as many cells: file.cell(step).cell(time).end_row(). Lines end in \n (RFC 4180
 /// quoting).
 class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header);
+  /// With a column "check" at the end, which end_row() fills in; csv_table.h reads such a table.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, CheckedRows);
   /// Goes on with the file of a stopped run, behind its rows.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header, StreamRest rest)
       : file_(path, std::move(rest)), columns_(header.size()) {}
@@ -43,8 +48,12 @@ class CsvWriter {
 
   OutputFile file_;
   std::size_t columns_, filled_ = 0;
+  bool checked_ = false;
   std::string line_;
 };
+
+/// What proves a row of CheckedRows: 16 hexadecimal digits (XXH64) of its text before that cell.
+std::string check_of_row(std::string_view text);
 
 /// The fewest digits that read back as the same double: 0.1, 1e-300, inf, nan.
 std::string shortest(double value);

@@ -1,12 +1,13 @@
 #include "sim/files/csv_table.h"
 
+#include "sim/files/csv.h"
+#include "sim/input/input_error.h"
 #include "sim/input/number.h"
+#include "sim/input/whole_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 
 namespace hopmesh::files {
 
@@ -61,23 +62,77 @@ std::optional<double> CsvTable::number(std::size_t row, std::string_view name) c
   return value;
 }
 
+namespace {
+
+/// A text's rows one after the other, each with its place.
+class Rows {
+ public:
+  Rows(std::string_view text, const std::string& path) : text_(text), path_(path) {}
+
+  bool more() const { return at_ < text_.size(); }
+  std::vector<std::string> next() {
+    line_ += static_cast<int>(std::count(raw_.begin(), raw_.end(), '\n')) + (at_ > 0 ? 1 : 0);
+    const std::size_t begin = at_;
+    std::vector<std::string> row = take_row(text_, at_);
+    raw_ = text_.substr(begin, at_ - 1 - begin);
+    return row;
+  }
+  /// The text of the row that was taken last.
+  std::string_view raw() const { return raw_; }
+  input::InputError error(const std::string& key, const std::string& found,
+                          const std::string& expected) const {
+    return input::input_error(path_, line_, key, found, expected);
+  }
+
+ private:
+  std::string_view text_, raw_;
+  const std::string& path_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+std::vector<std::string> next_of(Rows& rows, std::size_t cells) {
+  std::vector<std::string> row = rows.next();
+  if (row.size() != cells)
+    throw rows.error("", fmt::format("{} cells", row.size()), fmt::format("{}, as in the header", cells));
+  return row;
+}
+
+void expect_check(const Rows& rows) {
+  const std::size_t comma = rows.raw().rfind(',');
+  const std::string_view found = rows.raw().substr(comma + 1);
+  const std::string wanted = check_of_row(rows.raw().substr(0, comma));
+  if (found != wanted) throw rows.error("check", "a damaged row, " + input::in_quotes(found), wanted);
+}
+
+} // namespace
+
 CsvTable parse_csv(std::string_view text, const std::string& path) {
   CsvTable table;
-  std::size_t at = 0;
-  table.header = take_row(text, at);
-  while (at < text.size()) {
-    table.rows.push_back(take_row(text, at));
-    if (table.rows.back().size() != table.header.size())
-      throw std::runtime_error(fmt::format("{}: row {} has {} cells under a header of {}", path,
-                                           table.rows.size(), table.rows.back().size(), table.header.size()));
+  Rows rows(text, path);
+  table.header = rows.next();
+  while (rows.more()) table.rows.push_back(next_of(rows, table.header.size()));
+  return table;
+}
+
+CsvTable parse_checked_csv(std::string_view text, const std::string& path,
+                           const std::vector<std::string>& columns) {
+  CsvTable table{columns, {}};
+  std::vector<std::string> header = columns;
+  header.emplace_back("check");
+  Rows rows(text, path);
+  if (rows.next() != header) throw rows.error("", "other columns", fmt::format("{}", fmt::join(header, ",")));
+  while (rows.more()) {
+    table.rows.push_back(next_of(rows, header.size()));
+    expect_check(rows);
+    table.rows.back().pop_back();
   }
   return table;
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
-  return parse_csv(std::string(std::istreambuf_iterator<char>(file), {}), path.string());
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  return parse_csv(input::read_whole_file(path.string(), "a table", most_bytes), path.string());
 }
 
 } // namespace hopmesh::files

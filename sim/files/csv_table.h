@@ -20,8 +20,12 @@ struct CsvTable {
   std::optional<double> number(std::size_t row, std::string_view name) const;
 };
 
-/// Throws std::runtime_error with a line for people where a row is no row.
+/// Throws input::InputError where a row is no row.
 CsvTable parse_csv(std::string_view text, const std::string& path);
+/// A table that CsvWriter wrote with CheckedRows under these columns, without its checks. Throws
+/// input::InputError with the line of whatever is not as it was written.
+CsvTable parse_checked_csv(std::string_view text, const std::string& path,
+                           const std::vector<std::string>& columns);
 CsvTable read_csv(const std::filesystem::path& path);
 
 } // namespace hopmesh::files

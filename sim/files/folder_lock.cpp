@@ -15,7 +15,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
     : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(std::exchange(fd_, -1));
-  throw WriteError(fmt::format("{}: another run is writing into this folder", folder.string()));
+  throw BusyError(fmt::format("{}: another run is writing into this folder", folder.string()));
 }
 
 FolderLock::~FolderLock() {

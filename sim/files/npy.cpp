@@ -60,6 +60,15 @@ std::size_t product(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
+/// Do so many values of these sizes stand in `bytes`? None of the sizes is believed before.
+bool fits(const std::vector<std::size_t>& shape, std::uint64_t value_bytes, std::uint64_t bytes) {
+  if (!shape.empty() && shape[0] == 0) return true;
+  std::uint64_t needed = value_bytes;
+  for (const std::size_t size : shape) // rows without values count as if they had one
+    if (__builtin_mul_overflow(needed, std::max<std::uint64_t>(size, 1), &needed)) return false;
+  return needed <= bytes;
+}
+
 } // namespace
 
 template <class T>
@@ -117,10 +126,10 @@ NpyReader<T>::NpyReader(const std::filesystem::path& path) : path_(path), file_(
   const auto shape = parse_shape(value_of(dictionary, "'shape'"));
   if (!shape) refuse("a shape that is no list of sizes");
   shape_ = *shape;
+  data_offset_ = prefix_bytes + length; // so much was read just now
+  const std::uint64_t left = std::filesystem::file_size(path) - data_offset_;
+  if (!fits(shape_, sizeof(T), left)) refuse("shorter than its header says");
   for (std::size_t d = 1; d < shape_.size(); ++d) row_size_ *= shape_[d];
-  data_offset_ = prefix_bytes + length;
-  if (std::filesystem::file_size(path) < data_offset_ + rows() * row_size_ * sizeof(T))
-    refuse("shorter than its header says");
 }
 
 template <class T> std::vector<T> NpyReader<T>::row(std::size_t index) {

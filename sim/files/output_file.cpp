@@ -2,12 +2,14 @@
 #include "sim/files/output_file.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -109,11 +111,14 @@ OutputFile::OutputFile(std::filesystem::path path, StreamRest rest)
 /// What a killed run left is taken over; what a live run holds (its lock tells) is not.
 void OutputFile::open_part(const std::filesystem::path& place) {
   while (true) {
-    fd_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    fd_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (fd_ < 0 && errno == ELOOP)
+      throw WriteError(
+          fmt::format("{}: found a symbolic link, expected a file of ours or none", place.string()));
     if (fd_ < 0) fail("cannot create", errno);
     if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(std::exchange(fd_, -1));
-      throw WriteError(fmt::format("{}: another run is writing this file", path_.string()));
+      throw BusyError(fmt::format("{}: another run is writing this file", path_.string()));
     }
     if (same_file(fd_, place)) break; // else its owner renamed it between our open and our lock: try again
     ::close(std::exchange(fd_, -1));
@@ -199,6 +204,19 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   OutputFile file(path);
   file.write(text);
   file.commit();
+}
+
+void write_once(const std::filesystem::path& path, std::string_view text) {
+  constexpr auto glance = std::chrono::milliseconds(5);
+  for (std::error_code ignored; !std::filesystem::exists(path, ignored);) {
+    try {
+      return write_file(path, text);
+    } catch (const BusyError&) {
+      std::this_thread::sleep_for(glance);
+    } catch (const WriteError&) { // on disks that know no locks another one may have renamed it away
+      if (!std::filesystem::exists(path, ignored)) throw;
+    }
+  }
 }
 
 void check_writable(const std::filesystem::path& folder, std::uint64_t bytes_wanted) {

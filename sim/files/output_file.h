@@ -14,6 +14,12 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Somebody else is writing the file or folder at this moment.
+class BusyError : public WriteError {
+ public:
+  using WriteError::WriteError;
+};
+
 /// Writes NAME.part in the folder of NAME; commit() gives it its name. Without commit() nothing stays behind,
 /// but for what sync() made safe. A device or pipe (/dev/stdout) has no temporary name and is written in
 /// place.
@@ -55,6 +61,10 @@ class OutputFile {
 
 /// The whole file at once.
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// The whole file at once, unless it is there: several processes may come to it at the same moment, all of
+/// them with this text.
+void write_once(const std::filesystem::path& path, std::string_view text);
 
 /// Makes the folder and proves that a file can be made in it and that bytes_wanted are free, before hours of
 /// work.

@@ -3,6 +3,7 @@
 
 #include "rtl_model/spec/array_rules.h"
 #include "sim/input/key_table.h"
+#include "sim/input/utf8.h"
 
 #include <filesystem>
 
@@ -45,7 +46,7 @@ spec::ArraySpec changed(spec::ArraySpec a, const TomlSource& source, const std::
   read_keys(reader, array_file_keys(a, table));
   reader.refuse_unknown();
   if (!source.find("name") && !file.empty())
-    a.name = std::filesystem::path(file).stem().string();
+    expect_utf8("array", a.name = std::filesystem::path(file).stem().string());
   else if (!source.find("name") && source.overridden())
     a.name = "custom"; // no longer what the preset's name promises
   check_rules(source, file, a, table);

@@ -30,6 +30,12 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// A key of hundreds of kilobytes is told by its beginning.
+std::string shortened(const std::string& key) {
+  constexpr std::size_t longest = 80;
+  return key.size() > longest ? key.substr(0, longest) + "..." : key;
+}
+
 /// Edit distance with neighbouring letters swapped counted as one mistake (optimal string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
@@ -53,7 +59,7 @@ InputError input_error(const std::string& file, int line, const std::string& key
                        const std::string& expected, const std::string& nearest) {
   std::string text = file;
   if (line > 0) text += fmt::format("{}{}", text.empty() ? "line " : ":", line);
-  if (!key.empty()) text += (text.empty() ? "" : ": ") + key;
+  if (!key.empty()) text += (text.empty() ? "" : ": ") + shortened(key);
   std::string sentence = found.empty() ? "" : "found " + found;
   if (!expected.empty()) sentence += (sentence.empty() ? "expected " : ", expected ") + expected;
   if (!nearest.empty()) sentence += " (did you mean " + nearest + "?)";

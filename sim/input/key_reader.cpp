@@ -1,6 +1,8 @@
 // A function per kind of value; each knows how to say what it expected.
 #include "sim/input/key_reader.h"
 
+#include "sim/input/utf8.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -47,7 +49,8 @@ bool KeyReader::text(const std::string& key, std::string& target, const std::str
   const TomlValue* found = value(key);
   if (!found) return false;
   const auto* words = found->as<std::string>();
-  if (!words || words->empty() || has_control(*words)) throw source_.error(*found, key, expected);
+  if (!words || words->empty() || has_control(*words) || !is_utf8(*words))
+    throw source_.error(*found, key, expected);
   target = *words;
   return true;
 }

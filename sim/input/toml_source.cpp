@@ -53,6 +53,11 @@ TomlValue value_of(const toml::node& node, bool override) {
   return value;
 }
 
+InputError too_deep(const std::string& file, int line, const std::string& key) {
+  return input_error(file, line, key, fmt::format("a key more than {} levels deep", deepest_key),
+                     "a known key");
+}
+
 struct Flattening {
   std::string file;
   bool override;
@@ -61,9 +66,7 @@ struct Flattening {
   void table(const toml::table& from, const std::string& prefix, int depth) {
     for (const auto& [key, node] : from) {
       const std::string path = joined(prefix, key.str());
-      if (depth == deepest_key)
-        throw input_error(file, override ? 0 : line_of(node), path.substr(0, 60),
-                          fmt::format("a key more than {} levels deep", deepest_key), "a known key");
+      if (depth == deepest_key) throw too_deep(file, override ? 0 : line_of(node), path);
       values[path] = value_of(node, override);
       if (const toml::table* inner = node.as_table()) table(*inner, path, depth + 1);
     }
@@ -178,6 +181,7 @@ std::pair<std::string, std::string> split_override(const std::string& text) {
   const auto equals = text.find('=');
   const std::string key = equals == std::string::npos ? "" : trimmed(text.substr(0, equals));
   if (!is_key_path(key)) throw input_error(override_file, 0, "", in_quotes(text), "key.path=value");
+  if (std::count(key.begin(), key.end(), '.') >= deepest_key) throw too_deep(override_file, 0, key);
   return {key, trimmed(text.substr(equals + 1))};
 }
 

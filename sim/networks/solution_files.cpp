@@ -43,7 +43,8 @@ void write_solution(const std::filesystem::path& folder, const SolveLabel& label
       {"sweeps", s.rest.sweeps},    {"converged", s.rest.converged}, {"limit_cycle", s.limit_cycle},
       {"cycles", s.rest.cycles},    {"clipped", s.clipped},          {"energy_at_start", s.energy_at_start},
       {"energy", s.energy},         {"kkt_residual", s.kkt},         {"verdict", label.verdict}};
-  files::write_file(folder / "summary.json", summary.dump(2) + '\n');
+  files::write_file(folder / "summary.json",
+                    summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
 }
 
 } // namespace hopmesh::networks

@@ -1,12 +1,14 @@
 #include "sim/networks/solve_task.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "sim/files/folder_lock.h"
 #include "sim/files/output_file.h"
 #include "sim/input/input_error.h"
 #include "sim/levels/interrupt.h"
 #include "sim/networks/problems/problem.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace hopmesh::networks {
 
@@ -62,6 +64,8 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
   const GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), file);
   if (!folder.empty()) files::check_writable(folder, network.neurons() * 32);
+  std::optional<files::FolderLock> lock; // before the work: two of them would mix their files
+  if (!folder.empty()) lock.emplace(folder);
   levels::catch_interrupts();
   levels::PortRequest request;
   request.remarks = true;

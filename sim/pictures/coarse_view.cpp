@@ -47,9 +47,9 @@ std::vector<float> middles(const std::vector<float>& frame, const std::vector<st
   return middle;
 }
 
-} // namespace
+using Frames = std::vector<const std::vector<float>*>;
 
-RunView coarse_view(const RunView& view, double cubes) {
+RunView merged(const RunView& view, double cubes, const Frames& frames) {
   const std::vector<float>& end = view.frames.back();
   const float side = longest_side(end) / static_cast<float>(cubes);
   const auto cube = cubes_of(end, std::max(side, 1e-30f)); // a mesh in one place has no side
@@ -59,8 +59,7 @@ RunView coarse_view(const RunView& view, double cubes) {
   coarse.pinned.assign(coarse.nodes, false);
   for (std::size_t n = 0; n < view.nodes; ++n)
     if (view.pinned[n]) coarse.pinned[cube[n]] = true;
-  for (const auto* frame : {&view.frames.front(), &end})
-    coarse.frames.push_back(middles(*frame, cube, coarse.nodes));
+  for (const auto* frame : frames) coarse.frames.push_back(middles(*frame, cube, coarse.nodes));
   std::set<std::set<std::uint32_t>> there;
   for (const auto& t : view.triangles) {
     const std::uint32_t a = cube[t[0].node], b = cube[t[1].node], c = cube[t[2].node];
@@ -72,6 +71,24 @@ RunView coarse_view(const RunView& view, double cubes) {
     if (a != b && there.insert({a, b}).second) coarse.springs.push_back({{a, b}, 0});
   }
   return coarse;
+}
+
+} // namespace
+
+RunView coarse_view(const RunView& view, double cubes) {
+  return merged(view, cubes, {&view.frames.front(), &view.frames.back()});
+}
+
+RunView light_view(const RunView& view, double cubes) {
+  Frames frames;
+  for (const std::vector<float>& frame : view.frames) frames.push_back(&frame);
+  RunView light = merged(view, cubes, frames);
+  light.title = view.title, light.subtitle = view.subtitle, light.outcome = view.outcome;
+  light.good = view.good, light.crest = false; // merged corners have no place on a texture
+  light.frame_times = view.frame_times, light.frame_steps = view.frame_steps;
+  light.step_times = view.step_times, light.series = view.series;
+  light.tables = view.tables, light.manifest = view.manifest;
+  return light;
 }
 
 } // namespace hopmesh::pictures

@@ -163,7 +163,7 @@ class Reading {
       std::string_view text = line;
       read_number(parts[k].first, first_word(text), count);
       read_number(parts[k].first, text, checks[k], 16);
-      if (count > lines_.rest().size())
+      if (count > lines_.rest().size() / sizeof(double))
         throw lines_.error(parts[k].first, std::to_string(count) + " values", "as many as the file can hold");
       parts[k].second->resize(count);
       doubles += count;

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace hopmesh::run {
@@ -34,6 +35,19 @@ std::filesystem::path ready(const std::filesystem::path& folder, const RunFacts&
 
 std::optional<files::GreyPicture> image_of(const scene::Scene& scene) {
   return scene.force.image ? std::optional(levels::picture_of(scene)) : std::nullopt;
+}
+
+/// What is no UTF-8 (a folder's name in a command, at most) is replaced, as the report does.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// As JSON, without a tree of a million leaves.
+std::string hashes_of(const StepRows& rows) {
+  std::string text = "[";
+  for (const levels::StepRow& row : rows)
+    fmt::format_to(std::back_inserter(text), "{}\n    \"{:016x}\"", text.size() > 1 ? "," : "", row.hash);
+  return text + (rows.empty() ? "]" : "\n  ]");
 }
 
 void add_totals(Json& json, levels::Subject subject, const StepRows& rows) {
@@ -86,11 +100,12 @@ void RunFiles::finish(const RunResult& result, const levels::Mover& motion) {
   else // what an earlier run at a level with codes left here is not of this run
     discard("outputs_raw.npy");
   table_.commit();
-  const std::string what = manifest(result);
-  files::write_file(folder_ / "manifest.json", what);
+  std::string told = manifest(result, hashes_of(result.rows));
+  files::write_file(folder_ / "manifest.json", told);
+  if (result.rows.size() > most_points) told = manifest(result, "\"in manifest.json\"");
   files::write_file(folder_ / "stats.json",
                     statistics(result, motion)); // kept if the pictures cannot be written
-  auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", what);
+  auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", std::move(told));
   pictures::write_glb(view, folder_ / "mesh.glb");
   pictures::write_mesh_picture(view, folder_ / "picture.svg");
   if (image_)
@@ -101,7 +116,7 @@ void RunFiles::finish(const RunResult& result, const levels::Mover& motion) {
   if (facts_.level->has_codes())
     for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
       view.tables.push_back(table);
-  pictures::write_report(view, folder_ / "report.html");
+  pictures::write_report(report_view(std::move(view)), folder_ / "report.html");
   files::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
   if (result.outcome == Outcome::interrupted) return;
   discard(checkpoint_name); // last: until here a killed run can be resumed
@@ -161,10 +176,10 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
                                 {"least", std::ldexp(double(r.least), -r.format.fraction_bits())},
                                 {"largest", std::ldexp(double(r.largest), -r.format.fraction_bits())}});
   }
-  return json.dump(2) + "\n";
+  return text_of(json);
 }
 
-std::string RunFiles::manifest(const RunResult& result) const {
+std::string RunFiles::manifest(const RunResult& result, const std::string& hashes) const {
   Json json{
       {"program", "hopmesh"},
       {"version", version},
@@ -180,10 +195,8 @@ std::string RunFiles::manifest(const RunResult& result) const {
       {"array", facts_.level->has_codes() ? Json(input::array_text(facts_.inputs.array)) : Json(nullptr)},
       {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
       {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
-  json["step_hashes"] = Json::array();
-  for (const levels::StepRow& row : result.rows)
-    json["step_hashes"].push_back(fmt::format("{:016x}", row.hash));
-  return json.dump(2) + "\n";
+  const std::string text = text_of(json);
+  return fmt::format("{},\n  \"step_hashes\": {}\n}}\n", text.substr(0, text.size() - 3), hashes);
 }
 
 } // namespace hopmesh::run

@@ -2,6 +2,7 @@
 
 #include "sim/files/npy.h"
 #include "sim/input/count_text.h"
+#include "sim/pictures/coarse_view.h"
 #include "sim/run/array_info.h"
 
 #include <algorithm>
@@ -121,6 +122,27 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   return shown;
 }
 
+std::size_t steps_a_point(std::size_t steps) {
+  return std::max<std::size_t>(1, (steps + most_points - 1) / most_points);
+}
+
+StepRows rows_drawn(const StepRows& rows) {
+  StepRows drawn;
+  const std::size_t stride = steps_a_point(rows.size());
+  for (std::size_t k = 0; k < rows.size(); k += stride) drawn.push_back(rows[k]);
+  if (!rows.empty() && drawn.back().step != rows.back().step) drawn.push_back(rows.back());
+  return drawn;
+}
+
+pictures::RunView report_view(pictures::RunView view) {
+  if (view.nodes <= most_report_nodes) return view;
+  const std::size_t nodes = view.nodes;
+  view = pictures::light_view(view, std::sqrt(static_cast<double>(most_report_nodes)));
+  view.subtitle +=
+      fmt::format("; its {} nodes are drawn as {}", input::grouped(nodes), input::grouped(view.nodes));
+  return view;
+}
+
 std::vector<pictures::Series> series_of(const RunFacts& facts, const StepRows& rows,
                                         const StepColumns& columns) {
   std::vector<pictures::Series> all;
@@ -157,8 +179,11 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   view.manifest = std::move(manifest);
   add_surface(mesh.mesh(), view);
   add_frames(positions, scene.motion.time_step, view);
-  for (const levels::StepRow& row : result.rows) view.step_times.push_back(row.time);
-  view.series = series_of(facts, result.rows);
+  const StepRows drawn = rows_drawn(result.rows);
+  for (const levels::StepRow& row : drawn) view.step_times.push_back(row.time);
+  view.series = series_of(facts, drawn);
+  if (drawn.size() < result.rows.size())
+    view.subtitle += fmt::format("; charts show one step in {}", steps_a_point(result.rows.size()));
   return view;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/run/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 
@@ -51,6 +52,9 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
   const auto began = Clock::now();
   RunResult result = std::move(earlier);
   result.sentence = all_done(steps);
+  constexpr std::uint64_t foreseen = 1u
+                                     << 20; // rows; a table that grows by doubling takes half as much again
+  result.rows.reserve(std::min(steps, foreseen));
   while (result.rows.size() < steps) {
     if (stop) result.outcome = Outcome::interrupted;
     if (stop || !one_step(motion, steps, sinks, result)) break;

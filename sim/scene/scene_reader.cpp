@@ -1,6 +1,8 @@
 // Reading a scene by its table, and the rules that reach across keys.
 #include "sim/scene/scene_reader.h"
 
+#include "sim/input/utf8.h"
+
 #include <filesystem>
 
 namespace hopmesh::scene {
@@ -15,7 +17,13 @@ void resolve(const Scene& scene, const char* key, std::string& file) {
   const auto line = scene.lines.find(key);
   if (line == scene.lines.end()) return;
   const fs::path folder = line->second == 0 ? fs::path() : fs::path(scene.source).parent_path();
-  file = fs::absolute(folder / file).lexically_normal().string();
+  std::error_code error;
+  const fs::path whole = fs::absolute(folder / file, error).lexically_normal();
+  if (error)
+    throw scene_error(scene, key, "a current folder that is gone", "an absolute path, or another folder");
+  if (!input::is_utf8(whole.string()))
+    throw scene_error(scene, key, input::in_quotes(whole.string()), "a path in UTF-8");
+  file = whole.string();
 }
 
 /// The rules, of which each may refuse a key of the source.
@@ -72,6 +80,7 @@ Scene read_scene(const input::TomlSource& source, const std::string& path, Scene
   scene.source = path;
   scene.name = fs::path(path).stem().string();
   for (const auto& [key, value] : source.values()) scene.lines[key] = value.line;
+  input::expect_utf8("scene", scene.name);
   if (source.values().empty()) throw input::input_error(path, 0, "", "no key at all", "a scene file");
   if (source.find(file_key)) scene.mesh.shear = scene.mesh.bend = 0; // the edges of a file are all alike
   input::make_parts(source, table(scene));

@@ -95,13 +95,33 @@ class MapOfStudy {
     return map_.panels.back();
   }
 
+  /// Whoever edits results.csv may write anything there.
+  input::InputError error(std::size_t row, const std::string& key, const std::string& found) const {
+    return input::input_error("results.csv", static_cast<int>(row) + 2, key, input::in_quotes(found),
+                              "what the study can come to");
+  }
+
+  double place_of(std::size_t row, std::size_t axis, const std::vector<double>& places) const {
+    const std::string& text = table_.rows[row][1 + axis];
+    const auto value = number_of(text);
+    if (!value || !std::binary_search(places.begin(), places.end(), *value))
+      throw error(row, study_.axes[axis].name, text);
+    return *value;
+  }
+
+  std::size_t kind_of(std::size_t row) const {
+    const std::string& name = table_.text(row, heading_of(&PointRow::stability));
+    const auto found = std::find(std::begin(stability_names), std::end(stability_names), name);
+    if (found == std::end(stability_names)) throw error(row, heading_of(&PointRow::stability), name);
+    return static_cast<std::size_t>(found - std::begin(stability_names));
+  }
+
   void add_cell(std::size_t row) {
     pictures::MapPanel& panel = panel_of(row);
-    const double x = *number_of(table_.rows[row][1 + x_]), y = *number_of(table_.rows[row][1 + y_]);
+    const double x = place_of(row, x_, map_.xs), y = place_of(row, y_, map_.ys);
     pictures::MapCell& cell = panel.cells[index_of(map_.ys, y)][index_of(map_.xs, x)];
     const std::string& name = table_.text(row, heading_of(&PointRow::stability));
-    cell.kind = static_cast<std::size_t>(std::find(stability_names, stability_names + stability_count, name) -
-                                         stability_names);
+    cell.kind = kind_of(row);
     cell.tip = fmt::format("{} = {}, {} = {}\n{}: {}", map_.x_label, x, map_.y_label, y, name,
                            table_.text(row, heading_of(&PointRow::sentence)));
     cell.command = table_.text(row, heading_of(&Point::command));

@@ -9,7 +9,8 @@ namespace hopmesh::study {
 class StudyFolder {
  public:
   /// Takes up what is there. Throws InputError if it belongs to another study, or to this one before it was
-  /// changed (`hash`, of check_points). `alone`: lock the folder against other writers.
+  /// changed (`hash`, of check_points); DamagedFile for points that are not as they were written. `alone`:
+  /// lock the folder against other writers.
   StudyFolder(const Study& study, const std::filesystem::path& folder, std::uint64_t hash, bool alone);
 
   bool has(std::size_t number) const { return safe_.has(std::to_string(number)); }
@@ -22,6 +23,8 @@ class StudyFolder {
   const std::filesystem::path& path() const { return safe_.path(); }
 
  private:
+  files::CsvTable row(std::size_t number) const;
+
   const Study& study_;
   const SafeFolder safe_;
 };

@@ -1,18 +1,21 @@
 #include "sim/study/study_run.h"
 
+#include "sim/files/kept_file.h"
 #include "sim/files/output_file.h"
 #include "sim/input/command_words.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
+#include "sim/study/slurm.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <fmt/format.h>
+#include <new>
+#include <system_error>
 
 namespace hopmesh::study {
 
@@ -51,29 +54,48 @@ PointRow row_without_run(run::Outcome outcome, const std::string& sentence) {
   return row;
 }
 
-// In a child. What goes wrong is a row as well.
+// In a child. What goes wrong with a point is a row as well; what the system or a damaged file refuses to any
+// point is not.
+PointRow row_of(const Study& study, const Methods& methods, const Point& point) {
+  try {
+    return run_point(point, inputs_of(study, point), study.times, methods, levels::stop_requested);
+  } catch (const files::DamagedFile&) {
+    throw;
+  } catch (const files::WriteError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::system_error&) {
+    throw;
+  } catch (const std::exception& error) {
+    return row_without_run(run::Outcome::failed, error.what());
+  }
+}
+
 int one_point(const Study& study, const StudyFolder& folder, const Methods& methods, std::size_t number) {
   const Point point = point_of(study, number);
-  PointRow row;
-  try {
-    row = run_point(point, inputs_of(study, point), study.times, methods, levels::stop_requested);
-  } catch (const std::exception& error) {
-    row = row_without_run(run::Outcome::failed, error.what());
-  }
+  const PointRow row = row_of(study, methods, point);
   if (levels::stop_requested || row.outcome == run::Outcome::interrupted) return run::child_stopped;
   folder.save(point, row);
   return run::child_done;
 }
 
-bool run_in_children(const Study& study, const StudyOrder& order, const StudyFolder& folder,
-                     const Methods& methods) {
+/// Points of the order's share that are not there yet.
+std::vector<std::size_t> missing_of(const StudyOrder& order, const StudyFolder& folder) {
   std::vector<std::size_t> numbers = folder.missing();
   const auto of_others = [&](std::size_t n) { return n % order.share.of != order.share.first; };
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), of_others), numbers.end());
+  return numbers;
+}
+
+// A worker that was ended from outside says nothing about its point, which stays missing.
+bool run_in_children(const Study& study, const StudyOrder& order, const StudyFolder& folder,
+                     const Methods& methods) {
+  const std::vector<std::size_t> numbers = missing_of(order, folder);
   run::CountProgress progress("points", numbers.size());
   std::size_t count = 0;
   const auto ended = [&](std::size_t n, const run::ChildEnd& end) {
-    const bool asked = levels::stop_requested || end.exit_code == run::child_stopped;
+    const bool asked = levels::stop_requested || end.exit_code == run::child_stopped || end.from_outside();
     if (!asked && !folder.has(n))
       folder.save(point_of(study, n), row_without_run(run::Outcome::crashed, run::describe(end)));
     progress.count(++count);
@@ -83,31 +105,24 @@ bool run_in_children(const Study& study, const StudyOrder& order, const StudyFol
       levels::stop_requested);
 }
 
-// Each task of the job array is this program on its share of the points; sbatch waits for all of them.
-bool run_by_slurm(const Study& study, const StudyOrder& order, const StudyFolder& folder) {
+// Each task of the job array is this program on its share of the points.
+bool run_in_tasks(const Study& study, const StudyOrder& order, const StudyFolder& folder) {
   const std::size_t tasks = std::min(folder.missing().size(), order.workers);
   if (tasks == 0) return true;
   const std::string program = fs::read_symlink("/proc/self/exe").string();
-  const std::string where = fs::absolute(folder.path()).string();
-  const std::string task =
-      fmt::format("exec {} {} {} --out {} -j 1 --share \"$SLURM_ARRAY_TASK_ID/{}\"", shell_word(program),
-                  order.verb, shell_word(fs::absolute(study.path).string()), shell_word(where), tasks);
-  files::write_file(folder.path() / "task.sh", "#!/bin/sh\n" + task + "\n");
-  const std::string command = fmt::format(
-      "sbatch --quiet --wait --array=0-{} --ntasks=1 --cpus-per-task=1 --job-name=hopmesh "
-      "--chdir={} --output={} {} < /dev/null >&2",
-      tasks - 1, shell_word(where), shell_word(where + "/task-%a.log"), shell_word(where + "/task.sh"));
-  std::fflush(nullptr);
-  const int status = std::system(command.c_str());
-  if (status != 0)
-    fmt::print(stderr, "hopmesh: sbatch, or a task of its, ended with {}; see task-*.log in {}\n", status,
-               where);
+  run_by_slurm(fmt::format("exec {} {} {} --out {} -j 1 --share \"$SLURM_ARRAY_TASK_ID/{}\"",
+                           shell_word(program), order.verb, shell_word(fs::absolute(study.path).string()),
+                           shell_word(fs::absolute(folder.path()).string()), tasks),
+               tasks, folder.path());
   return folder.missing().empty();
 }
 
-std::string rest_text(const Study& study, const StudyOrder& order, std::size_t missing) {
-  return fmt::format("{}: {} of {} points are done and safe.\nTo go on\n  hopmesh {} {} --out {}\n",
-                     study.name, study.combinations() - missing, study.combinations(), order.verb,
+std::string rest_text(const Study& study, const StudyOrder& order, std::size_t missing,
+                      run::Outcome outcome) {
+  const bool lost = outcome == run::Outcome::failed && !order.slurm;
+  return fmt::format("{}: {} of {} points are done and safe{}.\nTo go on\n  hopmesh {} {} --out {}\n",
+                     study.name, study.combinations() - missing, study.combinations(),
+                     lost ? "; workers of others were ended from outside" : "", order.verb,
                      shell_word(order.study), shell_word(order.folder.string()));
 }
 
@@ -116,17 +131,18 @@ std::string rest_text(const Study& study, const StudyOrder& order, std::size_t m
 StudyEnd run_study(const Study& study, const StudyOrder& order) {
   const Methods methods = all_methods(order.folder);
   const std::uint64_t hash = check_points(study, methods);
-  const StudyFolder folder(study, order.folder, hash, order.share.of == 1);
+  const StudyFolder folder(study, order.folder, hash, order.share.alone);
   levels::catch_interrupts();
   const auto began = std::chrono::steady_clock::now();
   const bool whole =
-      order.slurm ? run_by_slurm(study, order, folder) : run_in_children(study, order, folder, methods);
+      order.slurm ? run_in_tasks(study, order, folder) : run_in_children(study, order, folder, methods);
   const std::size_t missing = folder.missing().size();
-  if (!whole || order.share.of > 1 || missing > 0)
-    return {whole                    ? run::Outcome::finished
-            : levels::stop_requested ? run::Outcome::interrupted
-                                     : run::Outcome::failed,
-            rest_text(study, order, missing)};
+  if (!whole || !order.share.alone || missing > 0) {
+    const run::Outcome outcome = levels::stop_requested              ? run::Outcome::interrupted
+                                 : missing_of(order, folder).empty() ? run::Outcome::finished
+                                                                     : run::Outcome::failed;
+    return {outcome, rest_text(study, order, missing, outcome)};
+  }
   std::string counts;
   for (const auto& [status, count] : folder.collect())
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);

@@ -11,6 +11,7 @@ namespace hopmesh::study {
 /// Every `of`-th point from `first` on; a whole study is 0/1.
 struct StudyShare {
   std::size_t first = 0, of = 1;
+  bool alone = true; ///< nobody else writes into the folder; not so where a share was asked for
 };
 
 struct StudyOrder {

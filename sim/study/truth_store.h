@@ -14,7 +14,8 @@ class TruthStore {
 
   /// Throws input::InputError for a scene whose exact motion nobody can compute.
   static void expect_known(const scene::Scene& scene);
-  /// At each of the times, ascending, s; empty where SUNDIALS gives up.
+  /// At each of the times, ascending, s; empty where SUNDIALS gives up, or the user while another process
+  /// works it out. Throws files::DamagedFile where the one that lies there is not as it was written.
   Truth at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
            const std::vector<double>& times) const;
 

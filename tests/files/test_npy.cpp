@@ -100,5 +100,22 @@ TEST(Npy, FileCutShortIsRefused) {
   EXPECT_THAT(read_error(folder / "a.npy"), HasSubstr("shorter than its header says"));
 }
 
+// Sizes are compared with the file before anything is made for them.
+TEST(Npy, SizesBeyondTheFileAreRefused) {
+  const Folder folder;
+  for (const char* shape :
+       {"(1, 1000000000000000000)", "(4294967296, 4294967296)", "(2, 0, 9223372036854775808)",
+        "(18446744073709551615,)", "(3, 6148914691236517206)", "(1000000000000000, 0)"}) {
+    std::string dictionary =
+        std::string("{'descr': '<f8', 'fortran_order': False, 'shape': ") + shape + ", }";
+    dictionary.resize(117, ' ');
+    const std::string file = folder.write("a.npy", std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dictionary +
+                                                       "\n" + std::string(64, 'x'));
+    EXPECT_THAT(complaint<ReadError>([&] { NpyReader<double> reader(file); }),
+                HasSubstr("shorter than its header says"))
+        << shape;
+  }
+}
+
 } // namespace
 } // namespace hopmesh::tests

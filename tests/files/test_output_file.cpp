@@ -183,5 +183,34 @@ TEST(CheckWritable, FileInTheWayIsNamed) {
   EXPECT_THAT(error_of([&] { check_writable(folder / "out", 1); }), HasSubstr((folder / "out").string()));
 }
 
+TEST(OutputFile, FollowsNoLinkInThePlaceOfItsPart) {
+  const Folder folder;
+  folder.write("victim", "precious");
+  std::filesystem::create_symlink("victim", folder / "a.txt.part");
+  EXPECT_THAT(error_of([&] { OutputFile file(folder / "a.txt"); }), HasSubstr("found a symbolic link"));
+  EXPECT_EQ(content_of(folder / "victim"), "precious");
+}
+
+TEST(OutputFile, ManyMayWriteTheSameFileOnce) {
+  const Folder folder;
+  std::vector<pid_t> children;
+  for (int k = 0; k < 20; ++k) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    try {
+      write_once(folder / "a.txt", "of all of us");
+      ::_exit(content_of(folder / "a.txt") == "of all of us" ? 0 : 1);
+    } catch (const std::exception&) {
+      ::_exit(2);
+    }
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a.txt"});
+}
+
 } // namespace
 } // namespace hopmesh::tests

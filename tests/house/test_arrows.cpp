@@ -32,12 +32,12 @@ const std::map<std::string, Rooms> allowed = {
       "sim/rivals", "sim/engine", "sim/files"}},
     {"sim/run", {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels"}},
     {"sim/cosim", {"rtl_model/spec", "sim/input", "sim/files", "sim/levels", "sim/run"}},
-    {"sim/networks",
-     {"rtl_model/spec", "sim/input", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
+    {"sim/networks", {"rtl_model/spec", "sim/input", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
     {"sim/study",
      {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
     {"sim/cli",
-     {"sim/input", "sim/scene", "sim/levels", "sim/run", "sim/cosim", "sim/networks", "sim/study"}},
+     {"sim/input", "sim/scene", "sim/files/standard_streams.h", "sim/levels", "sim/run", "sim/cosim",
+      "sim/networks", "sim/study"}},
 };
 
 // The machines of the engine: who may include whom. All of them may include the engine's root; of the root,

@@ -60,5 +60,10 @@ TEST(InQuotes, showsBytesAsPrintableText) {
   EXPECT_EQ(in_quotes(std::string(61, 'x')), '"' + std::string(60, 'x') + "...\"");
 }
 
+TEST(InputError, ShortensAKeyThatNobodyWouldRead) {
+  EXPECT_EQ(sentence("", 0, std::string(900'000, 'k'), "x", "y"),
+            std::string(80, 'k') + "...: found x, expected y");
+}
+
 } // namespace
 } // namespace hopmesh::tests

@@ -41,5 +41,39 @@ TEST(RowsShown, TwoAtLeastHoweverLargeTheMesh) {
   EXPECT_THAT(rows_shown(1, 4000000), ElementsAre(0));
 }
 
+TEST(RunPicture, CurvesOfLongRunsShowEveryNthStepAndTheLast) {
+  const auto steps_of = [](std::size_t count) {
+    run::StepRows rows(count);
+    for (std::size_t k = 0; k < count; ++k) rows[k].step = k;
+    std::vector<std::uint64_t> steps;
+    for (const auto& row : run::rows_drawn(rows)) steps.push_back(row.step);
+    return steps;
+  };
+  EXPECT_THAT(steps_of(0), ElementsAre());
+  EXPECT_THAT(steps_of(3), ElementsAre(0, 1, 2));
+  EXPECT_EQ(steps_of(run::most_points).size(), run::most_points);
+  const auto steps = steps_of(10 * run::most_points);
+  EXPECT_EQ(steps.size(), run::most_points + 1);
+  EXPECT_EQ(steps[1], 10u);
+  EXPECT_EQ(steps.back(), 10 * run::most_points - 1);
+}
+
+TEST(RunPicture, AMeshThatNoBrowserBearsIsDrawnCoarser) {
+  pictures::RunView view;
+  view.subtitle = "fine";
+  const std::size_t side = 400;
+  view.nodes = side * side;
+  view.pinned.assign(view.nodes, false);
+  std::vector<float> frame;
+  for (std::size_t k = 0; k < view.nodes; ++k)
+    for (const std::size_t at : {k % side, k / side, std::size_t{0}}) frame.push_back(static_cast<float>(at));
+  view.frames.assign(3, frame);
+  const pictures::RunView drawn = run::report_view(view);
+  EXPECT_LE(drawn.nodes, run::most_report_nodes);
+  EXPECT_EQ(drawn.frames.size(), 3u);
+  EXPECT_EQ(drawn.frames[1].size(), 3 * drawn.nodes);
+  EXPECT_THAT(drawn.subtitle, testing::HasSubstr("fine; its 160,000 nodes are drawn as "));
+}
+
 } // namespace
 } // namespace hopmesh::tests

@@ -13,10 +13,12 @@ namespace {
 study::StudyShare share_of(const StudyOptions& o) {
   study::StudyShare share;
   if (o.share.empty()) return share;
+  constexpr std::size_t most = 1'000'000'000;
   const std::string_view text = o.share;
   const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  share.alone = false;
   if (!input::parse_number(text.substr(0, slash), share.first) ||
-      !input::parse_number(text.substr(slash + 1), share.of) || share.first >= share.of)
+      !input::parse_number(text.substr(slash + 1), share.of) || share.first >= share.of || share.of > most)
     throw input::input_error("", 0, "--share", o.share, "K/N with K from 0 to N - 1");
   return share;
 }

@@ -177,6 +177,13 @@ struct Avx2 {
   static __m256i gathered(const std::uint32_t* from, __m256i index) {
     return _mm256_i32gather_epi32(reinterpret_cast<const int*>(from), index, 4);
   }
+  // A vector of words is read and written word by word as far as other threads can see. The language has no
+  // name for that, so the thread sanitizer is told not to look.
+  [[gnu::no_sanitize("thread")]] static Words load_links(const std::uint32_t* at) {
+    const auto* half = reinterpret_cast<const __m256i*>(at);
+    return {{_mm256_loadu_si256(half), _mm256_loadu_si256(half + 1)}};
+  }
+  static void store_links(std::uint32_t* at, const Words& x) { store_words(at, x); }
   static Words pick(const std::uint32_t* from, const std::uint8_t* lane) {
     return both_words([&](int h) {
       const auto* eight = reinterpret_cast<const __m128i*>(lane + 8 * h);

@@ -72,9 +72,15 @@ struct Avx512 {
   static Words halves(Words low, Words high) { return _mm512_mask_blend_epi16(0xAAAAAAAAu, low, high); }
   static Words up_16(Words a) { return _mm512_slli_epi32(a, 16); }
 
+  // A vector of words is read and written word by word as far as other threads can see. The language has no
+  // name for that, so the thread sanitizer is told not to look.
+  [[gnu::no_sanitize("thread")]] static Words load_links(const std::uint32_t* at) {
+    return _mm512_loadu_si512(at);
+  }
+  static void store_links(std::uint32_t* at, Words x) { store_words(at, x); }
   static Words pick(const std::uint32_t* from, const std::uint8_t* lane) {
     const Words index = _mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(lane)));
-    return _mm512_permutex2var_epi32(load_words(from), index, load_words(from + 16));
+    return _mm512_permutex2var_epi32(load_links(from), index, load_links(from + 16));
   }
   static Words gather(const std::uint32_t* plane, const std::uint32_t* slots) {
     return _mm512_i32gather_epi32(load_words(slots), plane, 4);

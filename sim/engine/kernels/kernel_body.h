@@ -12,8 +12,10 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
   using typename KernelStage<Isa>::Words;
   using typename KernelStage<Isa>::Stage;
 
+  /// Lanes of weight 0 may read a word that another thread is writing (FastLayout::add_source): whatever they
+  /// see counts for nothing. So links are read and written word by word, in one piece each.
   static Words fetch(const std::uint32_t* plane, const Source& source, const std::uint32_t* far_slot) {
-    if (source.kind == Source::together) return Isa::load_words(plane + source.base);
+    if (source.kind == Source::together) return Isa::load_links(plane + source.base);
     if (source.kind == Source::near) return Isa::pick(plane + source.base, source.lane);
     return Isa::gather(plane, far_slot + source.base);
   }
@@ -67,7 +69,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     for (std::size_t block = first; block < last; ++block) {
       at.load(a, block);
       const Words link = KernelStage<Isa>::template publish<how, plain>(at.x, at.slot, c);
-      Isa::store_words(a.next_zz + at.slot, Isa::halves(link, Isa::up_16(link)));
+      Isa::store_links(a.next_zz + at.slot, Isa::halves(link, Isa::up_16(link)));
     }
     c.store_extremes(extremes);
   }
@@ -84,13 +86,13 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     for (std::size_t block = first; true;) {
       if (P == 3 && with_y.live) {
         const Words link = KernelStage<Isa>::template publish<how, plain>(with_y.z, 3 * with_y.slot + 32, c);
-        Isa::store_words(a.next_zz + with_y.slot, Isa::halves(link, Isa::up_16(link)));
+        Isa::store_links(a.next_zz + with_y.slot, Isa::halves(link, Isa::up_16(link)));
       }
       with_y.live = P == 3 && with_x.live;
       if (with_x.live) {
         const Words link = KernelStage<Isa>::template publish<how, plain>(with_x.y, P * with_x.slot + 16, c);
         const Words xy = Isa::halves(with_x.xy, Isa::up_16(link));
-        Isa::store_words(a.next_xy + with_x.slot, xy);
+        Isa::store_links(a.next_xy + with_x.slot, xy);
         with_y.slot = with_x.slot;
         with_y.z = with_x.z;
         if (P == 3 && !a.synchronous) with_y.z.add(xy, with_x.w + 32);

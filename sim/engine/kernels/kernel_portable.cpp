@@ -187,11 +187,22 @@ struct Portable {
         [&](int l) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.at[l]) << 16); });
   }
 
+  /// A word that another thread may write at the same time.
+  static std::int32_t link(const std::uint32_t* at) {
+    return static_cast<std::int32_t>(__atomic_load_n(at, __ATOMIC_RELAXED));
+  }
+  static Words load_links(const std::uint32_t* at) {
+    return each_word([&](int l) { return link(at + l); });
+  }
+  static void store_links(std::uint32_t* at, const Words& x) {
+    for (int l = 0; l < 16; ++l)
+      __atomic_store_n(at + l, static_cast<std::uint32_t>(x.at[l]), __ATOMIC_RELAXED);
+  }
   static Words pick(const std::uint32_t* from, const std::uint8_t* lane) {
-    return each_word([&](int l) { return static_cast<std::int32_t>(from[lane[l]]); });
+    return each_word([&](int l) { return link(from + lane[l]); });
   }
   static Words gather(const std::uint32_t* plane, const std::uint32_t* slots) {
-    return each_word([&](int l) { return static_cast<std::int32_t>(plane[slots[l]]); });
+    return each_word([&](int l) { return link(plane + slots[l]); });
   }
 };
 

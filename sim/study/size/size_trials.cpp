@@ -43,12 +43,17 @@ std::vector<TrialRow> SizeTrials::rows(const std::vector<Setting>& settings) {
   const bool whole = run::run_in_children(
       missing, workers_, [&](std::size_t k) { return fly(settings[k]); },
       [&](std::size_t k, const run::ChildEnd& end) {
-        const bool asked = levels::stop_requested || end.exit_code == run::child_stopped;
+        const bool asked =
+            levels::stop_requested || end.exit_code == run::child_stopped || end.from_outside();
         if (!asked && !folder_.find(settings[k])) folder_.save(settings[k], {});
         progress_.count(++flown_);
       },
       levels::stop_requested);
   if (!whole || levels::stop_requested) throw SearchStopped();
+  for (const Setting& setting : settings)
+    if (!folder_.find(setting))
+      throw run::Refused(
+          "a trial was ended from outside; what was tried is safe, and the same command goes on");
   std::vector<TrialRow> rows;
   for (const Setting& setting : settings) rows.push_back(folder_.find(setting).value());
   return rows;
