@@ -44,7 +44,7 @@ namespace {
 std::vector<levels::StepRow> advance_all(const std::vector<ReadyLevel>& ready, Comparison& result) {
   std::vector<levels::StepRow> rows;
   try {
-    for (const ReadyLevel& c : ready) rows.push_back(c.motion->advance());
+    for (const ReadyLevel& c : ready) rows.push_back(c.mover->advance());
     result.steps += 1;
     return rows;
   } catch (const levels::LostMotion& why) {
@@ -166,7 +166,7 @@ void note_distances(const std::vector<ReadyLevel>& ready, Comparison& result) {
   if (ready[0].level->kind != levels::Kind::reference) return;
   for (std::size_t k = 1; k < ready.size(); ++k)
     result.levels[k].distances.push_back(
-        distance(result.steps, ready[0].motion->positions(), ready[k].motion->positions()));
+        distance(result.steps, ready[0].mover->positions(), ready[k].mover->positions()));
 }
 
 } // namespace
