@@ -20,11 +20,13 @@ struct NetworkFiles {
 
 struct NetworkData {
   files::SparseMatrix W;
-  std::vector<double> bias, start; ///< empty: none was named
+  std::vector<double> bias, start;     ///< empty: none was named
+  std::vector<std::string> notes = {}; ///< what was changed in reading: a line each
 };
 
 /// Throws input::InputError where W is not square, or not symmetric, sizes do not match, a start lies outside
-/// the box or the network is larger than an array's windows.
+/// the box or the network is larger than an array's windows. Where W and its transpose differ by round-off
+/// alone, far below the last place of any weight, their mean is taken, and told.
 NetworkData read_network(const NetworkFiles& files);
 
 /// Outputs to start from, as many as there are neurons.

@@ -43,6 +43,13 @@ std::vector<double> values_of(const Vector& vector) {
   return {vector.data(), vector.data() + vector.size()};
 }
 
+std::size_t count_vanished(const std::vector<double>& given, const std::vector<double>& loaded) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < given.size(); ++k)
+    if (given[k] != 0 && loaded[k] == 0) ++count;
+  return count;
+}
+
 class ArrayLevel : public NetworkLevel {
  public:
   ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, levels::ArrayPort& port)
@@ -69,6 +76,10 @@ class ArrayLevel : public NetworkLevel {
 
   const Vector& outputs() const override { return V_; }
   std::uint32_t clipped() const override { return loaded_.clipped(); }
+  std::size_t vanished() const override {
+    return count_vanished(network_.rows(), loaded_.weights()) +
+           count_vanished(values_of(network_.network().I), loaded_.biases());
+  }
 
   std::optional<reference::Network> loaded() const override {
     if (array_.output == spec::Output::modified && array_.normaliser == spec::Normaliser::prescaled)

@@ -25,6 +25,8 @@ class NetworkLevel {
   virtual const reference::Vector& outputs() const = 0;
   /// Weights and biases that did not fit the formats of an array.
   virtual std::uint32_t clipped() const { return 0; }
+  /// Weights and biases that are not 0 and became 0 in the formats of an array.
+  virtual std::size_t vanished() const { return 0; }
   /// The network as it stands in an array's memories, in units of the one that was given; none where there
   /// are no memories, or rows were scaled one by one.
   virtual std::optional<reference::Network> loaded() const { return std::nullopt; }

@@ -18,15 +18,21 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const reference::Vector& V) {
   return 0;
 }
 
+/// + 0.0: an energy of nothing has no sign.
+double energy_of(const GivenNetwork& network, const reference::Vector& V) {
+  return reference::network_energy(network.network(), V) + 0.0;
+}
+
 } // namespace
 
 Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
   Solution solution;
   solution.rest = level.relax(options.threshold, options.max_sweeps);
   solution.clipped = level.clipped();
+  solution.vanished = level.vanished();
   solution.V = level.outputs();
-  solution.energy_at_start = reference::network_energy(network.network(), network.start());
-  solution.energy = reference::network_energy(network.network(), solution.V);
+  solution.energy_at_start = energy_of(network, network.start());
+  solution.energy = energy_of(network, solution.V);
   solution.kkt = reference::kkt_violation(network.network(), solution.V);
   if (!solution.rest.converged) solution.limit_cycle = length_of_cycle(level, solution.V);
   return solution;

@@ -107,6 +107,7 @@ int solve(const SolveRequest& o) {
   spec::ArraySpec array = input::read_array(o.array, overrides, notes);
   tell(notes);
   const Task task = task_of(o);
+  tell(task.data.notes);
   apply_rule(o, overrides, task, array);
   const networks::GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), o.array);
