@@ -2,6 +2,10 @@
    inertia holds back. */
 #include "firmware/incremental.h"
 #include "firmware/network.h"
+#include "firmware/springs.h"
+
+static const uint32_t most_halvings = 40;  /* of a step that would climb */
+static const double climb_allowed = 1e-12; /* of the energy: what rounding makes of none */
 
 /* C: where a free node would get to in tau without springs. Backward Euler from x and v; BDF2 from
    (4 x - x') / 3 and (4 v - v') / 3, with x' and v' of the step before. */
@@ -80,15 +84,58 @@ static void find_next(const hm_step_work* work, uint32_t cell, hm_coordinate* ne
   }
 }
 
+/* Springs and inertia with the nodes at x: what an implicit step looks for the least of. */
+static double potential(const hm_step_work* work, const double* x) {
+  const hm_mesh* mesh = work->mesh;
+  double squares = 0;
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const uint32_t at = 3 * mesh->node_of_cell[c] + mesh->axis[p];
+      const double way = x[at] - work->state->predicted[at];
+      squares += way * way;
+    }
+  return hm_spring_energy(mesh, x) + work->inertia / 2 * squares;
+}
+
+/* Leaves the nodes a share of their way from C. */
+static void shorten(const hm_step_work* work, double share) {
+  const hm_mesh* mesh = work->mesh;
+  hm_state* state = work->state;
+  const double speed = work->kept * work->h * (work->two_steps ? 1.5 : 1.0) / work->parameters->time_step;
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const uint32_t at = 3 * mesh->node_of_cell[c] + mesh->axis[p];
+      const double change = (share - 1) * state->acceleration[at];
+      state->acceleration[at] += change;
+      state->position[at] = state->predicted[at] + work->h * state->acceleration[at];
+      state->velocity[at] += speed * change;
+    }
+}
+
+/* An expansion knows nothing of the corner that a constant pull has where its spring shrinks to nothing, and
+   may jump far beyond it: the way is halved until the step climbs no higher than C is, and given up where
+   even that does not help. */
+static void halve_climb(const hm_step_work* work) {
+  const hm_state* state = work->state;
+  if (work->mesh->law != HM_TENSION) return;
+  const double most = (1 + climb_allowed) * potential(work, state->predicted);
+  for (uint32_t halvings = 0; potential(work, state->position) > most; ++halvings) {
+    shorten(work, halvings < most_halvings ? 0.5 : 0.0);
+    if (halvings == most_halvings) return;
+  }
+}
+
 const hm_formulation hm_backward_euler = {.name = "backward_euler",
                                           .begin = begin_backward_euler,
                                           .build = hm_build_incremental,
                                           .relax = hm_relax_in_range,
-                                          .next = find_next};
+                                          .next = find_next,
+                                          .finish = halve_climb};
 
 const hm_formulation hm_bdf2 = {.name = "bdf2",
                                 .looks_back = 1,
                                 .begin = begin_bdf2,
                                 .build = hm_build_incremental,
                                 .relax = hm_relax_in_range,
-                                .next = find_next};
+                                .next = find_next,
+                                .finish = halve_climb};

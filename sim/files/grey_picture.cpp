@@ -1,15 +1,14 @@
-#include "sim/files/grey_picture.h"
-
+#include "sim/files/grey_formats.h"
 #include "sim/input/number.h"
 
 #include <algorithm>
-#include <png.h>
 #include <string>
 
 namespace hopmesh::files {
 namespace {
 
 constexpr std::uint32_t most_side = 16384;
+constexpr const char* blanks = " \t\r\n";
 
 /// The numbers of a PGM header or of its plain form, one at a time; a comment ends with its line.
 class Numbers {
@@ -26,13 +25,22 @@ class Numbers {
     return static_cast<std::uint32_t>(value);
   }
 
-  /// The pixels of a picture in bytes: one blank parts them from the header.
-  std::string_view bytes() const { return rest_.substr(rest_.empty() ? 0 : 1); }
+  /// The pixels of a picture in bytes: one blank parts them from the header. Where that is the first of a
+  /// line end of two, a byte is left over at the end and tells.
+  std::string_view bytes(std::size_t wanted) const {
+    std::string_view raw = rest_.substr(rest_.empty() ? 0 : 1);
+    if (raw.size() == wanted + 1 && rest_.substr(0, 2) == "\r\n") raw.remove_prefix(1);
+    if (raw.size() < wanted) throw NoPicture("a PGM picture that ends early");
+    if (raw.find_first_not_of(blanks, wanted) != std::string_view::npos)
+      throw NoPicture("a PGM picture with " + std::to_string(raw.size() - wanted) +
+                      " bytes behind its pixels");
+    return raw.substr(0, wanted);
+  }
 
  private:
   void skip() {
     for (;;) {
-      const auto first = rest_.find_first_not_of(" \t\r\n");
+      const auto first = rest_.find_first_not_of(blanks);
       rest_.remove_prefix(first == std::string_view::npos ? rest_.size() : first);
       if (rest_.empty() || rest_.front() != '#') return;
       rest_.remove_prefix(std::min(rest_.size(), rest_.find('\n')));
@@ -41,6 +49,8 @@ class Numbers {
 
   std::string_view rest_;
 };
+
+} // namespace
 
 void check_size(std::uint32_t width, std::uint32_t height) {
   if (width < 1 || height < 1 || width > most_side || height > most_side)
@@ -57,8 +67,7 @@ GreyPicture read_pgm(std::string_view bytes) {
   check_size(picture.width, picture.height);
   if (white < 1 || white > 65535) throw NoPicture("a PGM picture whose white is " + std::to_string(white));
   const std::size_t count = std::size_t{picture.width} * picture.height, wide = white > 255 ? 2 : 1;
-  const std::string_view raw = plain ? "" : numbers.bytes();
-  if (!plain && raw.size() < count * wide) throw NoPicture("a PGM picture that ends early");
+  const std::string_view raw = plain ? "" : numbers.bytes(count * wide);
   for (std::size_t k = 0; k < count; ++k) {
     const auto byte = [&](std::size_t at) { return std::uint32_t{static_cast<unsigned char>(raw[at])}; };
     const std::uint32_t shade = plain       ? numbers.next("all its pixels")
@@ -70,32 +79,9 @@ GreyPicture read_pgm(std::string_view bytes) {
   return picture;
 }
 
-GreyPicture read_png(std::string_view bytes) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()))
-    throw NoPicture(std::string("a PNG picture that libpng refuses: ") + image.message);
-  GreyPicture picture{image.width, image.height, {}};
-  std::vector<std::uint8_t> raw;
-  if (image.width <= most_side && image.height <= most_side) {
-    image.format = PNG_FORMAT_GRAY;
-    raw.resize(PNG_IMAGE_SIZE(image));
-    const png_color black{0, 0, 0}; // behind whatever is transparent
-    if (!png_image_finish_read(&image, &black, raw.data(), 0, nullptr))
-      throw NoPicture(std::string("a PNG picture that libpng refuses: ") + image.message);
-  } else {
-    png_image_free(&image);
-  }
-  check_size(picture.width, picture.height);
-  for (const std::uint8_t shade : raw) picture.shade.push_back(shade / 255.0);
-  return picture;
-}
-
-} // namespace
-
-GreyPicture read_grey(std::string_view bytes) {
+GreyPicture read_grey(std::string_view bytes, double ground) {
   if (bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == '2' || bytes[1] == '5')) return read_pgm(bytes);
-  if (bytes.substr(0, 4) == "\x89PNG") return read_png(bytes);
+  if (bytes.substr(0, 4) == "\x89PNG") return read_png(bytes, ground);
   throw NoPicture("no picture");
 }
 

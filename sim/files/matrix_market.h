@@ -25,8 +25,9 @@ struct SparseMatrix {
   std::vector<MatrixEntry> entries; ///< row by row, columns ascending; no place twice
 };
 
-/// `coordinate` (real, integer, pattern; a pattern's values are 1) or `array` (real, integer), `general` or
-/// `symmetric`; both halves of a symmetric one are given. Zeros of an `array` are no entries. Throws
+/// `coordinate` (real, integer, pattern; a pattern's values are 1) or `array` (real, integer), `general`,
+/// `symmetric` or `skew-symmetric`; both halves of the last two are given. Zeros of an `array` are no
+/// entries. A banner may begin with one % alone, and a number be written as in Fortran (1.5D-3). Throws
 /// input::InputError for everything else, with the line, and for values that are not finite.
 SparseMatrix read_matrix(const std::string& path);
 /// A matrix of one column, as a dense vector.

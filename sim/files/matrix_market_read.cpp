@@ -71,14 +71,20 @@ class MarketReader {
   void read_banner() {
     lines_.next();
     Words words(lines_.line());
-    if (lower(words.next()) != "%%matrixmarket")
+    const std::string banner = lower(words.next());
+    if (banner != "%%matrixmarket" && banner != "%matrixmarket") // one %: as networkrepository.com writes it
       fail(input::in_quotes(lines_.line()), "%%MatrixMarket matrix coordinate real general, or the like");
     choice(words, {"matrix"});
     dense_ = choice(words, {"coordinate", "array"}) == "array";
     const std::string field =
         dense_ ? choice(words, {"real", "integer"}) : choice(words, {"real", "integer", "pattern"});
     pattern_ = field == "pattern";
-    symmetric_ = choice(words, {"general", "symmetric"}) == "symmetric";
+    integer_ = field == "integer";
+    const std::vector<std::string> signed_kinds{"general", "symmetric", "skew-symmetric"};
+    const std::string kind =
+        choice(words, pattern_ ? std::vector<std::string>{"general", "symmetric"} : signed_kinds);
+    skew_ = kind == "skew-symmetric";
+    symmetric_ = skew_ || kind == "symmetric";
     expect_end(words);
   }
 
@@ -99,9 +105,15 @@ class MarketReader {
   double real(Words& words) const {
     const std::string_view word = words.next();
     double x = 0;
-    if (!input::parse_number(word, x) || !std::isfinite(x))
-      fail(word.empty() ? "the end of the line" : input::in_quotes(word), "a finite number");
-    return x;
+    const bool good = input::parse_real(word, x) && std::isfinite(x);
+    if (good && (!integer_ || is_integer(word))) return x;
+    fail(word.empty() ? "the end of the line" : input::in_quotes(word),
+         good ? "an integer, as the banner says" : "a finite number");
+  }
+
+  static bool is_integer(std::string_view word) {
+    const std::string_view digits = word.substr(word[0] == '+' || word[0] == '-' ? 1 : 0);
+    return digits.find_first_not_of("0123456789") == std::string_view::npos;
   }
 
   void read_sizes() {
@@ -113,9 +125,9 @@ class MarketReader {
     count_ = dense_ ? places : whole(words, 0, places, "the number of entries");
     expect_end(words);
     if (symmetric_ && matrix_.rows != matrix_.columns)
-      fail(fmt::format("{} x {}, symmetric", matrix_.rows, matrix_.columns),
+      fail(fmt::format("{} x {}, {}symmetric", matrix_.rows, matrix_.columns, skew_ ? "skew-" : ""),
            "as many rows as columns, or general");
-    if (dense_ && symmetric_) count_ = matrix_.rows * (matrix_.rows + 1) / 2;
+    if (dense_ && symmetric_) count_ = matrix_.rows * (matrix_.rows + 1) / 2 - (skew_ ? matrix_.rows : 0);
     matrix_.entries.reserve(std::min(count_, text_.size() / 2) * (symmetric_ ? 2 : 1));
   }
 
@@ -126,7 +138,7 @@ class MarketReader {
 
   void add(std::size_t row, std::size_t column, double value) {
     matrix_.entries.push_back({row, column, value});
-    if (symmetric_ && row != column) matrix_.entries.push_back({column, row, value});
+    if (symmetric_ && row != column) matrix_.entries.push_back({column, row, skew_ ? -value : value});
   }
 
   void read_entries() {
@@ -134,19 +146,20 @@ class MarketReader {
       Words words = entry(k);
       const std::size_t row = whole(words, 1, matrix_.rows, "a row");
       const std::size_t column = whole(words, 1, matrix_.columns, "a column");
-      if (symmetric_ && column > row)
+      if (symmetric_ && (column > row || (skew_ && column == row)))
         fail(fmt::format("row {}, column {}", row, column),
-             "the lower half alone, as a symmetric file has it");
+             skew_ ? "the half below the diagonal alone, as a skew-symmetric file has it"
+                   : "the lower half alone, as a symmetric file has it");
       add(row - 1, column - 1, pattern_ ? 1 : real(words));
       expect_end(words);
     }
   }
 
-  /// Column by column; of a symmetric one from the diagonal down.
+  /// Column by column; of a symmetric one from the diagonal down, of a skew one from below it.
   void read_columns() {
     std::size_t done = 0;
     for (std::size_t column = 0; column < matrix_.columns; ++column)
-      for (std::size_t row = symmetric_ ? column : 0; row < matrix_.rows; ++row, ++done) {
+      for (std::size_t row = symmetric_ ? column + (skew_ ? 1 : 0) : 0; row < matrix_.rows; ++row, ++done) {
         Words words = entry(done);
         const double value = real(words);
         expect_end(words);
@@ -164,15 +177,30 @@ class MarketReader {
         std::adjacent_find(all.begin(), all.end(), [](const MatrixEntry& a, const MatrixEntry& b) {
           return a.row == b.row && a.column == b.column;
         });
-    if (twice == all.end()) return;
-    throw input::input_error(path_, 0, "",
-                             fmt::format("row {}, column {} twice", twice->row + 1, twice->column + 1),
-                             "each place once");
+    if (twice != all.end()) refuse_second(twice->row + 1, twice->column + 1);
+  }
+
+  /// Looks through the file once more for the second of two entries at one place.
+  [[noreturn]] void refuse_second(std::size_t row, std::size_t column) {
+    if (symmetric_ && column > row) std::swap(row, column);
+    lines_ = input::LineReader(text_);
+    lines_.next();
+    next_line(); // the sizes
+    for (int first = 0; next_line();) {
+      Words words(lines_.line());
+      if (whole(words, 1, matrix_.rows, "a row") != row ||
+          whole(words, 1, matrix_.columns, "a column") != column)
+        continue;
+      if (first > 0)
+        fail(fmt::format("row {}, column {} twice, first in line {}", row, column, first), "each place once");
+      first = lines_.number();
+    }
+    fail(fmt::format("row {}, column {} twice", row, column), "each place once");
   }
 
   const std::string path_, text_;
   input::LineReader lines_;
-  bool dense_ = false, pattern_ = false, symmetric_ = false;
+  bool dense_ = false, pattern_ = false, integer_ = false, symmetric_ = false, skew_ = false;
   std::size_t count_ = 0;
   SparseMatrix matrix_;
 };

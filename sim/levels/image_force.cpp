@@ -1,10 +1,12 @@
 #include "sim/levels/image_force.h"
 
+#include "sim/input/count_text.h"
 #include "sim/input/whole_file.h"
 #include "sim/scene/scene_reader.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace hopmesh::levels {
 namespace {
@@ -72,7 +74,7 @@ GreyPicture picture_of(const scene::Scene& scene) {
   };
   GreyPicture picture;
   try {
-    picture = files::read_grey(bytes);
+    picture = files::read_grey(bytes, scene.force.image->ground);
   } catch (const files::NoPicture& why) {
     throw refused(why.what(), "a PGM or PNG picture");
   }
@@ -80,8 +82,21 @@ GreyPicture picture_of(const scene::Scene& scene) {
     throw refused(std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels",
                   "two rows and two columns at least");
   const auto [dark, bright] = std::minmax_element(picture.shade.begin(), picture.shade.end());
-  if (*dark == *bright) throw refused("one shade of grey", "a picture with an edge to settle on");
+  if (*dark == *bright)
+    throw picture.transparent > 0
+        ? refused("one shade of grey, transparent pixels on their ground",
+                  "a picture with an edge to settle on, or another force.image.ground")
+        : refused("one shade of grey", "a picture with an edge to settle on");
   return picture;
+}
+
+void tell_of_picture(const scene::Scene& scene, std::vector<std::string>& notes) {
+  const GreyPicture picture = picture_of(scene);
+  if (picture.transparent == 0) return;
+  notes.push_back(fmt::format("{}: {} of {} pixels are transparent and lie on a shade of {} "
+                              "(force.image.ground: 0 black, 1 white)",
+                              scene.force.image->file, input::grouped(picture.transparent),
+                              input::grouped(picture.shade.size()), scene.force.image->ground));
 }
 
 std::array<double, 2> pixel_of(const scene::ImageSpec& image, const double* place) {

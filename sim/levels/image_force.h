@@ -9,6 +9,9 @@ namespace hopmesh::levels {
 /// The picture of force.image. Throws input::InputError for a file that is none, or that shows no edge.
 files::GreyPicture picture_of(const scene::Scene& scene);
 
+/// Adds a line where pixels of the picture are transparent.
+void tell_of_picture(const scene::Scene& scene, std::vector<std::string>& notes);
+
 /// Where a place stands in the picture, in pixels: column, row.
 std::array<double, 2> pixel_of(const scene::ImageSpec& image, const double* place);
 

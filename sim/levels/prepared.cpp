@@ -1,6 +1,7 @@
 #include "sim/levels/prepared.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "sim/levels/image_force.h"
 
 namespace hopmesh::levels {
 
@@ -8,6 +9,8 @@ Prepared prepare(const std::string& scene, const std::string& array,
                  const std::vector<std::string>& overrides) {
   Prepared p{scene::read_inputs(scene, array, overrides), nullptr};
   p.mesh = std::make_unique<BuiltMesh>(p.inputs.scene);
+  for (const std::string& note : p.mesh->mesh().notes) p.inputs.notes.push_back(note);
+  if (p.inputs.scene.force.image) tell_of_picture(p.inputs.scene, p.inputs.notes);
   if (const auto fault = spec::validate(p.inputs.array, p.mesh->topology().most_taps()))
     throw input::input_error(array, 0, fault->key, fault->found, fault->expected);
   return p;

@@ -16,7 +16,8 @@ struct NetworkFiles {
 };
 
 /// Throws input::InputError where W is not square, or not symmetric, sizes do not match, a start lies outside
-/// the box or the network is larger than an array's windows.
+/// the box or the network is larger than an array's windows. Where W and its transpose differ by round-off
+/// alone, far below the last place of any weight, their mean is taken, and told.
 NetworkData read_network(const NetworkFiles& files);
 
 /// Outputs to start from, as many as there are neurons.

@@ -18,12 +18,18 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const Eigen::VectorXd& V) {
   return 0;
 }
 
+/// + 0.0: an energy of nothing has no sign.
+double energy_of(const GivenNetwork& network, const reference::Vector& V) {
+  return reference::network_energy(network.network(), V) + 0.0;
+}
+
 } // namespace
 
 Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
   Solution solution;
   solution.rest = level.relax(options.threshold, options.max_sweeps);
   solution.clipped = level.clipped();
+  solution.vanished = level.vanished();
   solution.V = level.outputs();
   solution.energy_at_start = network.energy(network.start());
   solution.energy = network.energy(solution.V);

@@ -19,6 +19,7 @@ struct SolveOptions {
 struct Solution {
   spec::Relaxation rest;
   std::uint32_t clipped = 0; ///< weights and biases that did not fit the formats of an array
+  std::size_t vanished = 0;  ///< weights and biases that rounding made 0
   Eigen::VectorXd V;
   double energy_at_start = 0, energy = 0; ///< -1/2 V'WV - I'V of the network as given
   double kkt = 0;                         ///< how far a step of s_i / N_i can still move an output

@@ -30,6 +30,10 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
                       s.energy_at_start, s.kkt);
   if (s.clipped > 0)
     text += fmt::format("{} weights and biases did not fit their format\n", input::grouped(s.clipped));
+  if (s.vanished > 0)
+    text += fmt::format("{} too small for the format and became 0: the array solves a network without them\n",
+                        s.vanished == 1 ? "1 weight or bias is"
+                                        : input::grouped(s.vanished) + " weights and biases are");
   if (!label.verdict.empty()) text += label.verdict + '\n';
   return text;
 }
@@ -37,12 +41,22 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
 void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
                     const Solution& s) {
   files::write_vector(folder / "V.mtx", levels::values_of(s.V));
-  const nlohmann::ordered_json summary{
-      {"network", label.network},   {"level", label.level},          {"rule", label.rule},
-      {"schedule", label.schedule}, {"neurons", network.neurons()},  {"weights", network.weights()},
-      {"sweeps", s.rest.sweeps},    {"converged", s.rest.converged}, {"limit_cycle", s.limit_cycle},
-      {"cycles", s.rest.cycles},    {"clipped", s.clipped},          {"energy_at_start", s.energy_at_start},
-      {"energy", s.energy},         {"kkt_residual", s.kkt},         {"verdict", label.verdict}};
+  const nlohmann::ordered_json summary{{"network", label.network},
+                                       {"level", label.level},
+                                       {"rule", label.rule},
+                                       {"schedule", label.schedule},
+                                       {"neurons", network.neurons()},
+                                       {"weights", network.weights()},
+                                       {"sweeps", s.rest.sweeps},
+                                       {"converged", s.rest.converged},
+                                       {"limit_cycle", s.limit_cycle},
+                                       {"cycles", s.rest.cycles},
+                                       {"clipped", s.clipped},
+                                       {"vanished", s.vanished},
+                                       {"energy_at_start", s.energy_at_start},
+                                       {"energy", s.energy},
+                                       {"kkt_residual", s.kkt},
+                                       {"verdict", label.verdict}};
   files::write_file(folder / "summary.json",
                     summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
 }

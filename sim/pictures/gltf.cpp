@@ -236,6 +236,10 @@ void write_glb(const RunView& view, const std::filesystem::path& path) {
   tinygltf::Node node;
   node.name = mesh.name;
   node.mesh = 0;
+  if (view.origin != std::array<double, 3>{0, 0, 0}) {
+    const auto origin = turned(view.up, view.origin[0], view.origin[1], view.origin[2]);
+    node.translation.assign(origin.begin(), origin.end());
+  }
   model.nodes.push_back(node);
   tinygltf::Scene scene;
   scene.nodes.push_back(0);

@@ -42,7 +42,8 @@ struct RunView {
   std::vector<ViewSpring> springs;
   bool crest = true;                      ///< draw our crest on the surface
   std::string up = "z";                   ///< axis that points up: x, y or z
-  std::vector<std::vector<float>> frames; ///< positions [nodes * 3] of the frames shown
+  std::array<double, 3> origin{0, 0, 0};  ///< m: where the scene has what frames call 0
+  std::vector<std::vector<float>> frames; ///< positions [nodes * 3] of the frames shown, less the origin
   std::vector<double> frame_times;        ///< s
   std::vector<double> frame_steps;
   std::vector<double> step_times; ///< s, abscissa of the series

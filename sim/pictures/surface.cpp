@@ -1,19 +1,10 @@
 // From nodes and triangles to vertices, indices and normals.
 #include "sim/pictures/surface.h"
 
-#include <array>
 #include <cmath>
-#include <string>
 
 namespace hopmesh::pictures {
 namespace {
-
-/// glTF is y-up: a quarter turn brings the scene's own up there and keeps left and right.
-std::array<float, 3> turned(const std::string& up, float x, float y, float z) {
-  if (up == "x") return {-y, x, z};
-  if (up == "z") return {x, z, -y};
-  return {x, y, z};
-}
 
 Surface lines_of(const RunView& view) {
   Surface surface;

@@ -21,6 +21,13 @@ struct Surface {
 
 Surface surface_of(const RunView& view);
 
+/// glTF is y-up: a quarter turn brings the scene's own up there and keeps left and right.
+template <typename Number> std::array<Number, 3> turned(const std::string& up, Number x, Number y, Number z) {
+  if (up == "x") return {-y, x, z};
+  if (up == "z") return {x, z, -y};
+  return {x, y, z};
+}
+
 /// Places of the surface's vertices in a frame, turned so that the scene's up is +y.
 Floats positions_of(const RunView& view, const Surface& surface, std::size_t frame);
 

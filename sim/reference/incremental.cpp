@@ -121,20 +121,24 @@ class Relaxing {
   const double trusted_;
 };
 
-// Springs less the work of the load, with `change` added to C; `size`: of its terms.
+// Springs and inertia less the work of the load, with `change` added to C; `size`: of its terms.
 double potential(const scene::Mesh& mesh, const Increment& increment, const Vector& change, double& size) {
-  const Vector place = increment.predicted + change;
-  const double springs = spring_energy(mesh, place);
-  size = std::abs(springs) + increment.load.cwiseProduct(place).cwiseAbs().sum();
+  const Vector moved = increment.h * change, place = increment.predicted + moved;
+  const double springs = spring_energy(mesh, place), held = increment.inertia / 2 * moved.squaredNorm();
+  size = std::abs(springs) + held;
+  if (!is_static(increment)) return springs + held;
+  size += increment.load.cwiseProduct(place).cwiseAbs().sum();
   return springs - increment.load.dot(place);
 }
 
-// An expansion says which way is down, not for how far: half the way, and half of that, until none is up.
+// An expansion says which way is down, not for how far: half the way, and half of that, until none is up. An
+// implicit step that never comes below C stays there, and the next one expands about that place.
 void stay_below(const scene::Mesh& mesh, const Increment& increment, Vector& change) {
   double size;
   const double start = potential(mesh, increment, Vector::Zero(change.size()), size);
   for (int k = 0; k < most_halvings; ++k, change /= 2)
     if (potential(mesh, increment, change, size) - start <= rounding * size) return;
+  if (!is_static(increment)) change.setZero();
 }
 
 // BDF2's v is the derivative of the parabola through three positions.
@@ -258,7 +262,7 @@ Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const O
   Vector change = Vector::Zero(3 * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)
     at(change, node) = step.scale * output(mesh, step.relaxation.V, node);
-  if (is_static(about)) stay_below(mesh, about, change);
+  if (is_static(about) || mesh.law == scene::SpringLaw::tension) stay_below(mesh, about, change);
   move(mesh, motion, about, change, state);
   return step;
 }

@@ -33,7 +33,9 @@ void add_frames(const std::filesystem::path& positions, double time_step, pictur
   files::NpyReader<double> file(positions);
   for (const std::size_t row : rows_shown(file.rows(), view.nodes)) {
     const auto values = file.row(row);
-    view.frames.emplace_back(values.begin(), values.end());
+    auto& frame = view.frames.emplace_back();
+    for (std::size_t k = 0; k < values.size(); ++k)
+      frame.push_back(static_cast<float>(values[k] - view.origin[k % 3]));
     view.frame_steps.push_back(static_cast<double>(row));
     view.frame_times.push_back(static_cast<double>(row) * time_step);
   }
@@ -88,6 +90,8 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
     add_totals(Subject::clock, rows, lines);
   }
   add_totals(Subject::motion, rows, lines);
+  if (const auto o = picture_origin(mesh.mesh()); o != std::array<double, 3>{0, 0, 0})
+    lines.push_back({"pictures' origin", fmt::format("({}, {}, {}) m", o[0], o[1], o[2])});
   lines.push_back({"peak memory", fmt::format("{:.0f} MB", peak_memory_mb())});
   return table;
 }
@@ -112,6 +116,21 @@ FigureTable range_table(const std::vector<levels::SignalRange>& ranges) {
 }
 
 } // namespace
+
+std::array<double, 3> picture_origin(const scene::Mesh& mesh) {
+  constexpr double far_off = 64; // extents: then single precision still keeps a 250,000th of the mesh
+  double extent = 0, distance = 0;
+  std::array<double, 3> middle{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [least, most] =
+        std::minmax_element(mesh.position.begin(), mesh.position.end(),
+                            [k](const scene::Vector3& a, const scene::Vector3& b) { return a[k] < b[k]; });
+    middle[k] = (*least)[k] / 2 + (*most)[k] / 2;
+    extent = std::max(extent, (*most)[k] - (*least)[k]);
+    distance = std::max(distance, std::fabs(middle[k]));
+  }
+  return distance > far_off * extent ? middle : std::array<double, 3>{0, 0, 0};
+}
 
 std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   const std::size_t frame_bytes = std::max<std::size_t>(1, 3 * sizeof(float) * nodes);
@@ -178,6 +197,7 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   view.up = scene::axis_names[static_cast<std::size_t>(scene.mesh.up)];
   view.manifest = std::move(manifest);
   add_surface(mesh.mesh(), view);
+  view.origin = picture_origin(mesh.mesh());
   add_frames(positions, scene.motion.time_step, view);
   const StepRows drawn = rows_drawn(result.rows);
   for (const levels::StepRow& row : drawn) view.step_times.push_back(row.time);

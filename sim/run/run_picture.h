@@ -19,6 +19,10 @@ inline constexpr std::size_t most_report_nodes = 150'000; ///< finer meshes are 
 /// The rows of positions.npy that the report shows: evenly, first and last included.
 std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes);
 
+/// What pictures of the mesh take off its places, which they keep in single precision: the middle of the mesh
+/// as it starts, where that is far from the scene's origin; else nothing.
+std::array<double, 3> picture_origin(const scene::Mesh& mesh);
+
 /// Frames are read back from positions.npy.
 pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& mesh, const RunResult& result,
                               const std::filesystem::path& positions, std::string manifest);

@@ -13,6 +13,7 @@ struct ImageSpec {
   double pitch = 1.0;
   double strength = 1.0;
   double smoothing = 2.0;
+  double ground = 0;
 };
 
 struct ForceSpec {
@@ -61,6 +62,8 @@ inline input::Keys force_keys(ForceSpec& f, const input::When& moving) {
           {0.5, 50, "a number of pixels from 0.5 to 50"},
           "standard deviation of the bell that smooths the picture first")
           .in_unit("pixels"),
+      Key("force.image.ground", in(f.image, &ImageSpec::ground), zero_to_one,
+          "shade that transparent pixels lie on: 0 black, 1 white; the program tells where there are some"),
   };
 }
 

@@ -65,23 +65,10 @@ void check_motion(const Scene& scene, const Mesh& mesh) {
                     "at least one free node");
 }
 
-/// Node -> a node that stands for everything joined to it by springs.
-std::vector<std::uint32_t> components_of(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.nodes());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto top = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const Spring& s : mesh.springs) parent[top(s.node[0])] = top(s.node[1]);
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = top(i);
-  return parent;
-}
-
 /// What no pin holds can go anywhere without a spring being longer: there is no least energy to find.
 void check_held(const Scene& scene, const Mesh& mesh) {
   if (!scene.is_static()) return;
-  const auto part = components_of(mesh);
+  const auto part = parts_of(mesh);
   std::vector<bool> held(mesh.nodes());
   for (std::size_t i = 0; i < mesh.nodes(); ++i)
     if (mesh.pinned[i]) held[part[i]] = true;
@@ -93,32 +80,35 @@ void check_held(const Scene& scene, const Mesh& mesh) {
 
 } // namespace
 
-void build_from_file(const Scene& scene, Mesh& mesh) {
+FileFacts build_from_file(const Scene& scene, Mesh& mesh) {
   const std::string path = scene.mesh.file.value_or("");
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw scene_error(scene, "mesh.file", "no file " + path,
                       "the OBJ mesh of this scene: put it there, or name yours with --set mesh.file=PATH");
-  ObjSurface surface = read_obj(path);
+  ObjSurface surface = read_obj(path, {scene.mesh.loose, scene.mesh.weld});
   for (Vector3& x : surface.position)
     for (double& component : x) component *= scene.mesh.scale;
   mesh.position = std::move(surface.position);
   mesh.triangles = std::move(surface.triangles);
-  if (scene.mesh.structural == 0) return;
+  mesh.notes = std::move(surface.notes);
   mesh.springs.reserve(surface.edges.size());
   for (const auto& edge : surface.edges)
-    mesh.springs.push_back({{edge[0], edge[1]}, scene.mesh.structural, 0});
+    if (scene.mesh.structural != 0) mesh.springs.push_back({{edge[0], edge[1]}, scene.mesh.structural, 0});
+  return {std::move(surface.loose), surface.twins};
 }
 
 Mesh build_mesh(const Scene& scene) {
   Mesh mesh;
   mesh.mass = scene.mesh.mass;
   mesh.planar = scene.mesh.planar;
+  FileFacts facts;
   if (scene.mesh.grid)
     build_grid(scene, mesh);
   else
-    build_from_file(scene, mesh);
+    facts = build_from_file(scene, mesh);
   pin_nodes(scene, mesh);
+  for (const std::uint32_t node : facts.loose) mesh.pinned[node] = true;
   if (scene.mesh.law == SpringLaw::tension)
     set_tension(scene, mesh);
   else
@@ -126,6 +116,7 @@ Mesh build_mesh(const Scene& scene) {
   check_planar(scene, mesh);
   check_motion(scene, mesh);
   check_held(scene, mesh);
+  if (scene.mesh.file) note_surprises(scene, facts, mesh);
   mesh.velocity = scene.mesh.start.velocity;
   if (scene.mesh.start.shuffle > 0) shuffle_nodes(scene.mesh.start, mesh);
   return mesh;

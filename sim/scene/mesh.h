@@ -27,6 +27,7 @@ struct Mesh {
   SpringLaw law = SpringLaw::linear;
   double floor = 0;                             ///< tension: m, above 0
   std::vector<std::array<Corner, 3>> triangles; ///< the surface, front side counter-clockwise
+  std::vector<std::string> notes;               ///< what people should know of a mesh file: a line each
 
   std::size_t nodes() const { return position.size(); }
   Vector3 start_velocity(std::size_t node) const { return pinned[node] ? Vector3{0, 0, 0} : velocity; }

@@ -1,5 +1,5 @@
-// [mesh] of a scene file: its values, and a row for each of its keys. A new key of the mesh is a member and a
-// row here.
+// [mesh] of a scene file: its values, and a row for each key of shape and springs; those of the nodes are in
+// node_keys.h. A new key of the mesh is a member here and a row.
 #pragma once
 
 #include "sim/input/key_table.h"
@@ -26,6 +26,10 @@ inline constexpr std::array<std::string_view, 2> spring_law_names{"linear", "ten
 enum class Axis : std::uint8_t { x, y, z };
 inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
+/// What becomes of a file's vertices that no face or line uses; kept ones are pinned.
+enum class Loose : std::uint8_t { drop, keep };
+inline constexpr std::array<std::string_view, 2> loose_names{"drop", "keep"};
+
 struct Start {
   double shuffle = 0;
   std::int64_t seed = 1;
@@ -43,6 +47,8 @@ struct MeshSpec {
   double scale = 1.0;
   Axis up = Axis::z;
   double pin_band = 0.02;
+  Loose loose = Loose::drop;
+  bool weld = false;
   double structural = 1.0, shear = 1.0, bend = 0.0; ///< alpha of each kind; 0: no such spring
   SpringLaw law = SpringLaw::linear;
   std::optional<double> floor; ///< none: of the mesh (mesh.h)
@@ -79,6 +85,12 @@ inline input::Keys shape_keys(MeshSpec& m) {
           .counts(of_file),
       Key("mesh.pin_band", &m.pin_band, zero_to_one, "how much of a file's extent an end like `top` takes in")
           .counts(of_file),
+      Key("mesh.loose", spec::choice(m.loose, loose_names),
+          "a file's vertices that no face or line uses: left out, which the program tells, or kept as pinned "
+          "nodes, so that a node's number is the vertex's less 1")
+          .counts(of_file),
+      Key("mesh.weld", &m.weld, "a file's vertices at one and the same place become one node")
+          .counts(of_file),
   };
 }
 
@@ -109,41 +121,6 @@ inline input::Keys spring_keys(MeshSpec& m) {
           .in_unit("m")
           .counts(of_tension)
           .unset_is("a thousandth of the mean spring as built"),
-  };
-}
-inline input::Keys node_keys(MeshSpec& m) {
-  using namespace input;
-  const Range length{0, 1e15, "\"natural\" or a length from 0 to 1e15"};
-  return {
-      Key("mesh.pinned", pin_list(m.pinned), "nodes that never move").allows("see below"),
-      Key("mesh.pin_ball",
-          Part{[&m] { m.pin_ball.emplace(); }, "radius", "no radius",
-               "{ centre = [x, y, z], radius = a length above 0 }"},
-          ""),
-      Key("mesh.pin_ball.centre", in(m.pin_ball, &PinBall::centre),
-          "nodes that never move, beside those: all that lie, as built, in a ball about this place")
-          .in_unit("m"),
-      Key("mesh.pin_ball.radius", in(m.pin_ball, &PinBall::radius), above_zero,
-          "of that ball, its skin included; a ball must hold a node")
-          .in_unit("m")
-          .unset_is("no ball"),
-      Key("mesh.mass", &m.mass, above_zero, "of every node; in the probe only kinetic energy shows it")
-          .in_unit("kg"),
-      Key("mesh.rest", Worded{"natural", &m.rest}, length,
-          "rest length of every spring; `\"natural\"`: as built")
-          .in_unit("m")
-          .leaves_out(0, "error of the expansion", "rest length 0: the energy is quadratic"),
-      Key("mesh.planar", &m.planar, "two neurons a node, along x and z; y never moves"),
-      Key("mesh.start.shuffle", &m.start.shuffle, from_zero,
-          "free nodes start up to so far off their places, along each axis; springs keep their rest lengths")
-          .in_unit("m"),
-      Key("mesh.start.seed", &m.start.seed, {0, 0x1p63, ""},
-          "which of the random starts; the same places on every machine (SplitMix64)")
-          .counts({m.start.shuffle > 0, "mesh.start.shuffle above 0"})
-          .allows("0 to 2^63 − 1"),
-      Key("mesh.start.velocity", &m.start.velocity,
-          "of every free node; none in the static rule, 0 along y in planar meshes")
-          .in_unit("m/s"),
   };
 }
 

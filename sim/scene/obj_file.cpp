@@ -1,44 +1,46 @@
-// Reads an OBJ in two walks: lines to records, then records to a checked surface (faces may stand before
-// vertices).
+// From the records of an OBJ to a checked surface: what says nothing is left out and told, what is broken is
+// refused with its line.
 #include "sim/scene/obj_file.h"
 
+#include "sim/input/count_text.h"
 #include "sim/input/input_error.h"
-#include "sim/input/line_reader.h"
-#include "sim/input/number.h"
-#include "sim/input/whole_file.h"
-#include "sim/scene/limits.h"
+#include "sim/scene/obj_records.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace hopmesh::scene {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
-constexpr double farthest = 1e15; // squares and their sums stay finite
+/// Vertex -> the first vertex at its place.
+std::vector<std::uint32_t> first_at_place(const std::vector<Vector3>& position) {
+  std::vector<std::uint32_t> order(position.size()), first(position.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return position[a] != position[b] ? position[a] < position[b] : a < b;
+  });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool again = k > 0 && position[order[k]] == position[order[k - 1]];
+    first[order[k]] = again ? first[order[k - 1]] : order[k];
+  }
+  return first;
+}
 
-/// A corner as written, both indices made absolute and counted from 0; texture -1: none.
-struct RawCorner {
-  std::int64_t vertex, texture;
-  int line;
-};
-
-using input::Words;
-
-class ObjReader {
+class SurfaceMaker {
  public:
-  explicit ObjReader(const std::string& path) : path_(path) {}
+  SurfaceMaker(ObjRecords records, const ObjChoices& choices)
+      : records_(std::move(records)), choices_(choices), first_(first_at_place(records_.position)) {}
 
-  ObjSurface read() {
-    read_lines(input::read_whole_file(path_, "an OBJ mesh", most_bytes));
-    if (first_corner_.empty() && line_ends_.empty())
-      fail(0, "no faces (lines \"f ...\")", "an OBJ mesh with at least one, or with lines \"l ...\"");
-    first_corner_.push_back(corners_.size());
-    check_indices(corners_);
-    check_indices(line_ends_);
-    check_used();
+  ObjSurface make() {
+    surface_.notes = std::move(records_.notes);
+    for (ObjRuns* runs : {&records_.faces, &records_.lines}) {
+      check_indices(*runs);
+      if (choices_.weld) weld(*runs);
+    }
+    drop_repeats();
+    number_nodes();
     make_edges();
     make_triangles();
     return std::move(surface_);
@@ -46,105 +48,14 @@ class ObjReader {
 
  private:
   [[noreturn]] void fail(int line, const std::string& found, const std::string& expected) const {
-    throw input::input_error(path_, line, "", found, expected);
+    throw input::input_error(records_.path, line, "", found, expected);
   }
 
-  void read_lines(const std::string& text) {
-    input::LineReader lines(text);
-    while (lines.next()) {
-      line_ = lines.number();
-      read_line(lines.line());
-    }
-  }
+  void note(const std::string& what) { surface_.notes.push_back(records_.path + ": " + what); }
 
-  void read_line(std::string_view line) {
-    if (line.find('\0') != std::string_view::npos)
-      fail(line_, "a byte of value 0", "an OBJ mesh, which is text");
-    Words words(line.substr(0, line.find('#')));
-    const std::string_view keyword = words.next();
-    if (keyword == "v")
-      read_vertex(words);
-    else if (keyword == "vt")
-      read_texture(words);
-    else if (keyword == "f")
-      read_face(words);
-    else if (keyword == "l")
-      read_polyline(words);
-  }
-
-  double number(std::string_view word, const char* name) const {
-    double x = 0;
-    if (!input::parse_number(word, x))
-      fail(line_, word.empty() ? "no " + std::string(name) : input::in_quotes(word),
-           fmt::format("a number for {}", name));
-    if (!(std::abs(x) <= farthest))
-      fail(line_, input::in_quotes(word), fmt::format("a number within 1e15 for {}", name));
-    return x;
-  }
-
-  void read_vertex(Words& words) {
-    const double x = number(words.next(), "x"), y = number(words.next(), "y"), z = number(words.next(), "z");
-    surface_.position.push_back({x, y, z});
-    vertex_line_.push_back(line_);
-    if (surface_.position.size() > std::size_t(most_nodes))
-      fail(line_, "one vertex more", fmt::format("at most {} nodes", most_nodes));
-  }
-
-  /// v points up in OBJ and down in pictures.
-  void read_texture(Words& words) {
-    const double u = number(words.next(), "u");
-    const std::string_view v = words.next();
-    texture_.push_back({float(u), float(1 - (v.empty() ? 0.0 : number(v, "v")))});
-  }
-
-  void read_face(Words& words) {
-    first_corner_.push_back(corners_.size());
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
-      corners_.push_back(corner(word));
-    const std::size_t count = corners_.size() - first_corner_.back();
-    if (count < 3) fail(line_, fmt::format("a face of {} corners", count), "at least three");
-  }
-
-  /// l a b c: springs a-b and b-c, and nothing to see but them.
-  void read_polyline(Words& words) {
-    std::vector<RawCorner> points;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
-      points.push_back(corner(word));
-    if (points.size() < 2) fail(line_, fmt::format("a line of {} points", points.size()), "at least two");
-    for (std::size_t k = 0; k + 1 < points.size(); ++k)
-      line_ends_.insert(line_ends_.end(), {points[k], points[k + 1]});
-  }
-
-  /// v, v/vt, v//vn or v/vt/vn; normals are of no use to a mesh that moves.
-  RawCorner corner(std::string_view word) const {
-    const auto slash = word.find('/');
-    RawCorner corner{index(word.substr(0, slash), surface_.position.size(), word), -1, line_};
-    if (slash == std::string_view::npos) return corner;
-    const std::string_view rest = word.substr(slash + 1);
-    const auto second = rest.find('/');
-    const std::string_view texture = rest.substr(0, second);
-    if (!texture.empty())
-      corner.texture = index(texture, texture_.size(), word);
-    else if (second == std::string_view::npos)
-      fail(line_, input::in_quotes(word), "a texture index after the /");
-    if (second != std::string_view::npos && rest.find('/', second + 1) != std::string_view::npos)
-      fail(line_, input::in_quotes(word), "at most v/vt/vn");
-    return corner;
-  }
-
-  /// Indices count from 1; negative ones count back from the latest.
-  std::int64_t index(std::string_view digits, std::size_t so_far, std::string_view word) const {
-    std::int64_t k = 0;
-    if (!input::parse_number(digits, k) || k == 0)
-      fail(line_, input::in_quotes(word), "a corner v, v/vt, v//vn or v/vt/vn with indices from 1");
-    if (k < 0 && k + std::int64_t(so_far) < 0)
-      fail(line_, input::in_quotes(word), fmt::format("at most {} back, that many stand above", so_far));
-    return k > 0 ? k - 1 : k + std::int64_t(so_far);
-  }
-
-  void check_indices(const std::vector<RawCorner>& corners) const {
-    const std::int64_t nodes = surface_.position.size(), textures = texture_.size();
-    for (const RawCorner& c : corners) {
+  void check_indices(const ObjRuns& runs) const {
+    const std::int64_t nodes = records_.position.size(), textures = records_.texture.size();
+    for (const ObjCorner& c : runs.corner) {
       if (c.vertex >= nodes)
         fail(c.line, fmt::format("vertex {}", c.vertex + 1), fmt::format("1 to {}", nodes));
       if (c.texture >= textures)
@@ -153,66 +64,163 @@ class ObjReader {
     }
   }
 
+  void weld(ObjRuns& runs) const {
+    for (ObjCorner& c : runs.corner) c.vertex = first_[c.vertex];
+  }
+
+  void drop_repeats() {
+    const std::size_t before = records_.faces.corner.size() + records_.lines.corner.size();
+    const std::size_t faces = keep_distinct(records_.faces, true, 3),
+                      lines = keep_distinct(records_.lines, false, 2);
+    const std::size_t repeats = before - records_.faces.corner.size() - records_.lines.corner.size();
+    if (repeats > 0)
+      note(fmt::format("{} left out that repeat the one before, with them {} of fewer than three different "
+                       "corners and {} of a single point",
+                       input::with_noun(repeats, "corner"), input::with_noun(faces, "face"),
+                       input::with_noun(lines, "line")));
+    if (records_.faces.count() == 0 && records_.lines.count() == 0)
+      fail(0, "no face of three different corners", "at least one, or a line between two vertices");
+  }
+
+  /// A corner that repeats the one before it says nothing, and a face closes by itself. Runs of fewer than
+  /// `least` different vertices go; returns how many those are.
+  static std::size_t keep_distinct(ObjRuns& runs, bool closed, std::size_t least) {
+    ObjRuns kept;
+    kept.corner.reserve(runs.corner.size());
+    for (std::size_t run = 0; run < runs.count(); ++run) {
+      const std::size_t first = kept.corner.size();
+      for (std::size_t k = runs.begin(run); k < runs.end(run); ++k)
+        if (kept.corner.size() == first || kept.corner.back().vertex != runs.corner[k].vertex)
+          kept.corner.push_back(runs.corner[k]);
+      while (closed && kept.corner.size() > first + 1 &&
+             kept.corner.back().vertex == kept.corner[first].vertex)
+        kept.corner.pop_back();
+      if (different(kept.corner, first) >= least)
+        kept.first.push_back(first);
+      else
+        kept.corner.resize(first);
+    }
+    const std::size_t gone = runs.count() - kept.count();
+    runs = std::move(kept);
+    return gone;
+  }
+
+  /// Vertices from a corner on, each counted once; exact up to three, which is all that is asked.
+  static std::size_t different(const std::vector<ObjCorner>& corner, std::size_t first) {
+    std::array<std::int64_t, 3> seen{-1, -1, -1};
+    std::size_t count = 0;
+    for (std::size_t k = first; k < corner.size() && count < seen.size(); ++k)
+      if (std::find(seen.begin(), seen.end(), corner[k].vertex) == seen.end())
+        seen[count++] = corner[k].vertex;
+    return count;
+  }
+
+  std::vector<bool> used_vertices() const {
+    std::vector<bool> used(records_.position.size());
+    for (const ObjRuns* runs : {&records_.faces, &records_.lines})
+      for (const ObjCorner& c : runs->corner) used[c.vertex] = true;
+    return used;
+  }
+
   /// A node without face and line has no spring: it would fall through the world and nobody would see it.
-  void check_used() const {
-    std::vector<bool> used(surface_.position.size());
-    for (const auto* corners : {&corners_, &line_ends_})
-      for (const RawCorner& c : *corners) used[c.vertex] = true;
-    const auto lost = std::find(used.begin(), used.end(), false);
-    if (lost == used.end()) return;
-    const auto node = lost - used.begin();
-    fail(vertex_line_[node], fmt::format("vertex {} in no face", node + 1),
-         "only vertices that faces or lines use");
+  void number_nodes() {
+    const std::vector<bool> used = used_vertices();
+    std::vector<std::size_t> loose;
+    std::size_t welded = 0;
+    node_.assign(used.size(), 0);
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      const bool is_welded = choices_.weld && first_[v] != v, is_loose = !used[v] && !is_welded;
+      if (is_welded) ++welded;
+      if (is_loose) loose.push_back(v);
+      if (used[v] || (is_loose && choices_.loose == Loose::keep)) add_node(v);
+    }
+    if (choices_.loose == Loose::keep)
+      for (const std::size_t v : loose) surface_.loose.push_back(node_[v]);
+    count_twins(used);
+    tell_left_out(loose, welded);
+  }
+
+  void add_node(std::size_t vertex) {
+    node_[vertex] = static_cast<std::uint32_t>(surface_.position.size());
+    surface_.position.push_back(records_.position[vertex]);
+  }
+
+  void count_twins(const std::vector<bool>& used) {
+    std::vector<bool> taken(used.size());
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) continue;
+      if (taken[first_[v]]) ++surface_.twins;
+      taken[first_[v]] = true;
+    }
+  }
+
+  void tell_left_out(const std::vector<std::size_t>& loose, std::size_t welded) {
+    if (!loose.empty())
+      note(fmt::format("{} in no face or line, the first in line {}: {}", vertices(loose.size()),
+                       records_.vertex_line[loose[0]],
+                       choices_.loose == Loose::keep
+                           ? "kept, pinned where they stand"
+                           : "left out, so later nodes have lower numbers than in the file (mesh.loose = "
+                             "\"keep\" keeps them, pinned)"));
+    if (welded > 0) note(fmt::format("{} welded to others at the same place", vertices(welded)));
+  }
+
+  static std::string vertices(std::size_t count) {
+    return input::grouped(count) + (count == 1 ? " vertex" : " vertices");
   }
 
   void make_edges() {
     auto& edges = surface_.edges;
-    edges.reserve(corners_.size() + line_ends_.size() / 2);
-    for (std::size_t f = 0; f + 1 < first_corner_.size(); ++f)
-      for (std::size_t k = first_corner_[f]; k < first_corner_[f + 1]; ++k)
-        edges.push_back(edge(corners_[k], corners_[k + 1 < first_corner_[f + 1] ? k + 1 : first_corner_[f]]));
-    for (std::size_t k = 0; k < line_ends_.size(); k += 2)
-      edges.push_back(edge(line_ends_[k], line_ends_[k + 1]));
+    edges.reserve(records_.faces.corner.size() + records_.lines.corner.size());
+    for (const ObjRuns* runs : {&records_.faces, &records_.lines})
+      for (std::size_t run = 0; run < runs->count(); ++run) {
+        for (std::size_t k = runs->begin(run); k + 1 < runs->end(run); ++k)
+          edges.push_back(edge(runs->corner[k], runs->corner[k + 1]));
+        if (runs == &records_.faces)
+          edges.push_back(edge(runs->corner[runs->end(run) - 1], runs->corner[runs->begin(run)]));
+      }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }
 
-  std::array<std::uint32_t, 2> edge(const RawCorner& a, const RawCorner& b) const {
-    if (a.vertex == b.vertex)
-      fail(a.line, fmt::format("vertex {} twice in a row", a.vertex + 1), "two ends of an edge");
-    if (surface_.position[a.vertex] == surface_.position[b.vertex])
+  std::array<std::uint32_t, 2> edge(const ObjCorner& a, const ObjCorner& b) const {
+    if (first_[a.vertex] == first_[b.vertex])
       fail(a.line, fmt::format("vertices {} and {} at one place", a.vertex + 1, b.vertex + 1),
-           "edges with a length");
-    return {std::uint32_t(std::min(a.vertex, b.vertex)), std::uint32_t(std::max(a.vertex, b.vertex))};
+           "edges with a length, or mesh.weld = true");
+    const std::uint32_t from = node_[a.vertex], to = node_[b.vertex];
+    return {std::min(from, to), std::max(from, to)};
   }
 
   void make_triangles() {
-    surface_.triangles.reserve(corners_.size());
-    for (std::size_t f = 0; f + 1 < first_corner_.size(); ++f)
-      for (std::size_t k = first_corner_[f] + 1; k + 1 < first_corner_[f + 1]; ++k)
-        surface_.triangles.push_back(
-            {finished(corners_[first_corner_[f]]), finished(corners_[k]), finished(corners_[k + 1])});
+    const ObjRuns& faces = records_.faces;
+    surface_.triangles.reserve(faces.corner.size());
+    for (std::size_t f = 0; f < faces.count(); ++f)
+      for (std::size_t k = faces.begin(f) + 1; k + 1 < faces.end(f); ++k)
+        add_triangle(faces.corner[faces.begin(f)], faces.corner[k], faces.corner[k + 1]);
   }
 
-  Corner finished(const RawCorner& c) const {
-    if (c.texture < 0) return {std::uint32_t(c.vertex), 0, 0};
-    return {std::uint32_t(c.vertex), texture_[c.texture][0], texture_[c.texture][1]};
+  /// Of a polygon that comes by a vertex twice, some triangles have no area.
+  void add_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c) {
+    if (a.vertex == b.vertex || a.vertex == c.vertex) return;
+    surface_.triangles.push_back({finished(a), finished(b), finished(c)});
   }
 
-  std::string path_;
-  int line_ = 0;
+  Corner finished(const ObjCorner& c) const {
+    if (c.texture < 0) return {node_[c.vertex], 0, 0};
+    return {node_[c.vertex], records_.texture[c.texture][0], records_.texture[c.texture][1]};
+  }
+
+  ObjRecords records_;
+  const ObjChoices choices_;
+  const std::vector<std::uint32_t> first_; ///< of each vertex: first_at_place
+  std::vector<std::uint32_t> node_;        ///< of each vertex that became one
   ObjSurface surface_;
-  std::vector<int> vertex_line_;
-  std::vector<std::array<float, 2>> texture_;
-  std::vector<RawCorner> corners_;        ///< of faces
-  std::vector<RawCorner> line_ends_;      ///< two a spring
-  std::vector<std::size_t> first_corner_; ///< of each face, and the end
 };
 
 } // namespace
 
-ObjSurface read_obj(const std::string& path) {
-  return ObjReader(path).read();
+ObjSurface read_obj(const std::string& path, const ObjChoices& choices) {
+  return SurfaceMaker(read_obj_records(path), choices).make();
 }
 
 } // namespace hopmesh::scene

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "sim/scene/force_keys.h"
-#include "sim/scene/mesh_keys.h"
 #include "sim/scene/motion_keys.h"
+#include "sim/scene/node_keys.h"
 
 #include <map>
 

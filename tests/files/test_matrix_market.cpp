@@ -94,6 +94,26 @@ TEST_F(MatrixMarket, APatternsValuesAreOne) {
                  {{0, 1, 1}, {1, 1, 1}});
 }
 
+TEST_F(MatrixMarket, TheOtherHalfOfASkewOneIsNegative) {
+  expect_entries(read("%%MatrixMarket matrix coordinate real skew-symmetric\n3 3 2\n2 1 -1.5\n3 2 2\n"),
+                 {{0, 1, 1.5}, {1, 0, -1.5}, {1, 2, -2}, {2, 1, 2}});
+  expect_entries(read("%%MatrixMarket matrix array integer skew-symmetric\n3 3\n1\n0\n3\n"),
+                 {{0, 1, -1}, {1, 0, 1}, {1, 2, -3}, {2, 1, 3}});
+}
+
+TEST_F(MatrixMarket, ABannerOfOnePercentAByteOrderMarkAndFortransNumbers) {
+  for (const char* banner : {"%MatrixMarket", "\xEF\xBB\xBF%%MatrixMarket", "%matrixmarket"})
+    expect_entries(
+        read(std::string(banner) + " matrix coordinate real general\r2 2 2\r1 1 -1.5D+01\r2 1 1e-400\r"),
+        {{0, 0, -15}, {1, 0, 0}});
+}
+
+TEST_F(MatrixMarket, IntegersMayHaveASign) {
+  expect_entries(
+      read("%%MatrixMarket matrix coordinate integer general\n2 2 2\n1 1 +7\n2 1 -12345678901234567890\n"),
+      {{0, 0, 7}, {1, 0, -12345678901234567890.0}});
+}
+
 TEST_F(MatrixMarket, ArraysGoColumnByColumn) {
   expect_entries(read("%%MatrixMarket matrix array real general\n2 2\n1\n2\n0\n4\n"),
                  {{0, 0, 1}, {1, 0, 2}, {1, 1, 4}});
@@ -136,7 +156,20 @@ TEST_F(MatrixMarket, EveryMistakeIsToldWithItsLine) {
       {real + "2 2 1\n1 1 1e999\n", ":3: found \"1e999\""},
       {real + "2 2 1\n1 1 1,5\n", ":3: found \"1,5\""},
       {real + "2 2 1\n1 1 1 1\n", ":3: found \"1\", expected the end of the line"},
-      {real + "2 2 2\n1 1 1\n1 1 2\n", "found row 1, column 1 twice"},
+      {real + "2 2 2\n1 1 1\n1 1 2\n",
+       ":4: found row 1, column 1 twice, first in line 3, expected each place once"},
+      {real + "% c\n2 2 3\n1 2 1\n\n2 2 0\n1 2 2\n", ":7: found row 1, column 2 twice, first in line 4"},
+      {"%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n2 1 1\n2 1 2\n",
+       ":4: found row 2, column 1 twice"},
+      {"%%MatrixMarket matrix coordinate integer general\n1 1 1\n1 1 -1.5\n",
+       ":3: found \"-1.5\", expected an integer, as the banner says"},
+      {"%%MatrixMarket matrix array integer general\n1 1\n1e3\n", ":3: found \"1e3\", expected an integer"},
+      {"%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n1 1 1\n",
+       ":3: found row 1, column 1, expected the half below the diagonal alone"},
+      {"%%MatrixMarket matrix coordinate pattern skew-symmetric\n2 2 1\n2 1\n",
+       ":1: found \"skew-symmetric\""},
+      {"%%MatrixMarket matrix coordinate real skew-symmetric\n2 3 1\n2 1 1\n",
+       ":2: found 2 x 3, skew-symmetric"},
       {"%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n", ":3: found row 1, column 2"},
       {"%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", ":2: found 2 x 3, symmetric"},
       {"%%MatrixMarket matrix array real general\n2 1\n1\n", "after 1 entries, expected 2 entries"},

@@ -188,6 +188,15 @@ TEST(Gltf, WithoutCrestThereIsAPlainColour) {
   EXPECT_TRUE(loaded(view).images.empty());
 }
 
+// z-up turns to y-up, the origin with it.
+TEST(Gltf, TheOriginIsTheNodesTranslation) {
+  RunView view = sample_run(3, 2);
+  EXPECT_TRUE(loaded(view).nodes.at(0).translation.empty());
+  view.origin = {500000.25, 4600000.5, 300};
+  view.up = "z";
+  EXPECT_EQ(loaded(view).nodes.at(0).translation, (std::vector<double>{500000.25, 300, -4600000.5}));
+}
+
 TEST(Gltf, MotionWithoutOneGoodFrameIsRefused) {
   const Folder folder;
   RunView view = sample_run(3, 1);

@@ -75,5 +75,19 @@ TEST(RunPicture, AMeshThatNoBrowserBearsIsDrawnCoarser) {
   EXPECT_THAT(drawn.subtitle, testing::HasSubstr("fine; its 160,000 nodes are drawn as "));
 }
 
+scene::Mesh two_nodes(const scene::Vector3& a, const scene::Vector3& b) {
+  scene::Mesh mesh;
+  mesh.position = {a, b};
+  return mesh;
+}
+
+TEST(PictureOrigin, IsTheMiddleOfAMeshThatIsFarAway) {
+  using run::picture_origin;
+  EXPECT_THAT(picture_origin(two_nodes({0, 0, 0}, {1, 2, 3})), ElementsAre(0, 0, 0));
+  EXPECT_THAT(picture_origin(two_nodes({60, 0, 0}, {61, 0, 0})), ElementsAre(0, 0, 0));
+  EXPECT_THAT(picture_origin(two_nodes({70, 0, -2}, {71, 0.5, -2})), ElementsAre(70.5, 0.25, -2));
+  EXPECT_THAT(picture_origin(two_nodes({1e6, 1e6, 1e6}, {1e6, 1e6, 1e6})), ElementsAre(1e6, 1e6, 1e6));
+}
+
 } // namespace
 } // namespace hopmesh::tests

@@ -35,6 +35,7 @@ int solve(const SolveRequest& o) {
   auto array = input::read_array(o.array, overrides, notes);
   tell(notes);
   const networks::SolveTask task = networks::read_task(o.files, o.seed);
+  tell(task.data.notes);
   const bool is_set = std::any_of(overrides.begin(), overrides.end(), sets_output);
   networks::apply_rule(o.rule, is_set, task, array);
   try {

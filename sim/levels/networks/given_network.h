@@ -7,13 +7,15 @@
 #include "sim/files/matrix_market.h"
 #include "sim/reference/reference.h"
 
+#include <string>
 #include <vector>
 
 namespace hopmesh::levels {
 
 struct NetworkData {
   files::SparseMatrix W;
-  std::vector<double> bias, start; ///< empty: none was named
+  std::vector<double> bias, start;     ///< empty: none was named
+  std::vector<std::string> notes = {}; ///< what was changed in reading: a line each
 };
 
 /// Owns the arrays that hm_mesh points into; it neither moves nor copies. A neuron is a cell of its own; a

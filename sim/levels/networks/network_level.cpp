@@ -37,6 +37,13 @@ class ReferenceLevel : public NetworkLevel {
   Vector V_;
 };
 
+std::size_t count_vanished(const std::vector<double>& given, const std::vector<double>& loaded) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < given.size(); ++k)
+    if (given[k] != 0 && loaded[k] == 0) ++count;
+  return count;
+}
+
 class ArrayLevel : public NetworkLevel {
  public:
   ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, ArrayPort& port)
@@ -63,6 +70,10 @@ class ArrayLevel : public NetworkLevel {
 
   const Vector& outputs() const override { return V_; }
   std::uint32_t clipped() const override { return loaded_.clipped(); }
+  std::size_t vanished() const override {
+    return count_vanished(network_.rows(), loaded_.weights()) +
+           count_vanished(values_of(network_.network().I), loaded_.biases());
+  }
 
   // The memories keep what was loaded, so they are read once.
   std::optional<double> loaded_energy() override {

@@ -28,6 +28,8 @@ class NetworkLevel {
   /// Energy of the outputs in the network as it stands in an array's memories, in units of the one that was
   /// given; none where there are no memories, or rows were scaled one by one.
   virtual std::optional<double> loaded_energy() { return std::nullopt; }
+  /// Weights and biases that are not 0 and became 0 in the formats of an array.
+  virtual std::size_t vanished() const { return 0; }
 };
 
 std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array);
