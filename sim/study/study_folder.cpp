@@ -5,21 +5,25 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
 
 namespace hopmesh::study {
 
 namespace {
 
-/// The cells that a point's row has before anything is computed.
-struct KnownCell {
-  std::string name, text;
-};
+/// Where a column stands; an axis may be called like any of those behind the axes.
+std::size_t place_of(const std::vector<std::string>& header, const Study& study, const char* heading) {
+  const auto behind_axes = header.begin() + 1 + static_cast<std::ptrdiff_t>(study.axes.size());
+  return static_cast<std::size_t>(std::find(behind_axes, header.end(), heading) - header.begin());
+}
 
-std::vector<KnownCell> known_cells(const Study& study, std::size_t number) {
+/// What cells say before anything is computed, by their place.
+std::map<std::size_t, std::string> known_cells(const std::vector<std::string>& header, const Study& study,
+                                               std::size_t number) {
   const Point point = point_of(study, number);
-  std::vector<KnownCell> cells{{heading_of(&Point::number), std::to_string(number)},
-                               {heading_of(&Point::method), point.method}};
-  for (std::size_t a = 0; a < study.axes.size(); ++a) cells.push_back({study.axes[a].name, point.labels[a]});
+  std::map<std::size_t, std::string> cells{{0, std::to_string(number)}};
+  for (std::size_t a = 0; a < study.axes.size(); ++a) cells[1 + a] = point.labels[a];
+  cells[place_of(header, study, heading_of(&Point::method))] = point.method;
   return cells;
 }
 
@@ -45,11 +49,11 @@ StudyFolder::StudyFolder(const Study& study, const std::filesystem::path& folder
 files::CsvTable StudyFolder::row(std::size_t number) const {
   const std::string name = std::to_string(number);
   files::CsvTable one = safe_.row(name);
-  for (const KnownCell& known : known_cells(study_, number))
-    if (one.text(0, known.name) != known.text)
-      throw safe_.damaged(name, input::in_quotes(one.text(0, known.name)), known.text, known.name);
-  const std::string outcome = one.text(0, heading_of(&PointRow::outcome)),
-                    kind = one.text(0, heading_of(&PointRow::stability));
+  const std::vector<std::string>& cells = one.rows[0];
+  for (const auto& [at, text] : known_cells(one.header, study_, number))
+    if (cells[at] != text) throw safe_.damaged(name, input::in_quotes(cells[at]), text, one.header[at]);
+  const std::string& outcome = cells[place_of(one.header, study_, heading_of(&PointRow::outcome))];
+  const std::string& kind = cells[place_of(one.header, study_, heading_of(&PointRow::stability))];
   if (!run::outcome_named(outcome))
     throw safe_.damaged(name, input::in_quotes(outcome), "how a run ends", heading_of(&PointRow::outcome));
   if (!is_class(kind))
