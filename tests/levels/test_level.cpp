@@ -79,9 +79,9 @@ TEST(LevelTable, ALevelOfOnesOwnIsARow) {
   const levels::Prepared p{{scene, {}}, std::make_unique<levels::BuiltMesh>(scene)};
   const levels::ReadyLevel soft = levels::make_ready(level, p, true);
   const levels::ReadyLevel engine = levels::make_ready(levels::default_level(), p, true);
-  EXPECT_EQ(soft.motion.get(), soft.array);
+  EXPECT_EQ(soft.mover.get(), soft.array);
   for (int step = 0; step < 3; ++step) {
-    const levels::StepRow a = soft.motion->advance(), b = engine.motion->advance();
+    const levels::StepRow a = soft.mover->advance(), b = engine.mover->advance();
     EXPECT_EQ(a.hash, b.hash) << step;
     EXPECT_EQ(a.cycles, b.cycles) << step;
     EXPECT_EQ(a.bus_cycles, b.bus_cycles) << step;

@@ -78,7 +78,7 @@ std::vector<Link> chain_of(const BudgetOptions& o, const levels::Prepared& p,
                            const levels::ReadyLevel& array) {
   const scene::Scene& scene = p.inputs.scene;
   std::vector<Link> chain;
-  const std::shared_ptr<levels::Mover> run(std::shared_ptr<void>(), array.motion.get());
+  const std::shared_ptr<levels::Mover> run(std::shared_ptr<void>(), array.mover.get());
   chain.push_back({fmt::format("array {}", p.inputs.array.name), "quantisation", run, {}});
   chain.push_back({"reference, the same sweeps at most and threshold",
                    "unfinished relaxation",
