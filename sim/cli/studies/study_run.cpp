@@ -8,6 +8,7 @@
 #include "sim/levels/level.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
+#include "sim/study/reference_store.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
 
@@ -159,7 +160,13 @@ study::Methods all_methods(const fs::path& folder) {
   const auto truth = [store = study::TruthStore(folder)](
                          const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                          const std::vector<double>& times) { return store.at(inputs, mesh, times); };
-  return {levels::level_names(), motion_of, truth};
+  const auto reference =
+      [store = study::ReferenceStore(folder)](const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                                              const std::vector<double>& times, std::uint64_t steps,
+                                              const std::atomic<bool>& stop) {
+        return store.at(inputs, mesh, times, steps, stop);
+      };
+  return {levels::level_names(), motion_of, truth, reference};
 }
 
 int run_study(const StudyOptions& o, const study::Study& study, fs::path& where) {
