@@ -233,13 +233,14 @@ std::string text_of(const LevelReport& r) {
   if (cycles > 0) text += fmt::format(", {} cycles", input::grouped(cycles)); // the reference has none
   text += "\n";
   if (r.distances.empty()) return text;
-  text += fmt::format("  each step against the reference's answer to the same step:\n"
+  text += fmt::format("  each step against the reference's rest of the same step:\n"
                       "    outputs differ by at most {:.3g}, worst rms of a step {:.3g}\n"
+                      "    worst rms by rounding {:.3g}, by where steps stopped {:.3g}\n"
                       "    energy left above the reference's rest: at most {:.3g} of the step's fall\n"
                       "    weights and biases differ by at most {:.2g} of the largest\n"
                       "  the free motions part (positions, m):\n",
-                      largest(&Error::largest_output), largest(&Error::rms_output),
-                      largest(&Error::energy_gap), largest(&Error::network));
+                      largest(&Error::largest_output), largest(&Error::rms_output), largest(&Error::rounding),
+                      largest(&Error::stopping), largest(&Error::energy_gap), largest(&Error::network));
   for (const Distance& d : r.distances)
     text += fmt::format("    after {:>5} step{}  rms {:.3g}  largest {:.3g}\n", d.steps,
                         d.steps == 1 ? " " : "s", d.rms, d.largest);

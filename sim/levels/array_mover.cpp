@@ -16,6 +16,20 @@ const hm_formulation* formulation_named(const std::string& name) {
   throw std::logic_error("no formulation " + name);
 }
 
+/// A driver, and where the last of its relaxations is kept: a step may have several.
+struct Watched {
+  hm_driver* driver;
+  hm_relaxation* last;
+};
+
+int relax_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
+                  std::uint32_t max_sweeps, hm_relaxation* result) {
+  const auto* watched = static_cast<Watched*>(context);
+  const int error = hm_driver_relax(watched->driver, mesh, network, threshold, max_sweeps, result);
+  *watched->last = *result;
+  return error;
+}
+
 } // namespace
 
 hm_step_parameters step_parameters(const scene::Scene& scene) {
@@ -59,7 +73,9 @@ StepRow ArrayMover::advance() {
   if (image_) motion_.node_force = image_->at(memory_.now.position).data();
   if (check_) check_->begin(state(), motion_.node_force);
   port_.begin_step(step);
-  const hm_solver solver{&driver_, hm_driver_relax};
+  hm_relaxation last{};
+  Watched watched{&driver_, &last};
+  const hm_solver solver{&watched, relax_watched};
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
   if (error == HM_ERROR_STOPPED) {
@@ -86,7 +102,7 @@ StepRow ArrayMover::advance() {
   if (check_) {
     using Clock = std::chrono::steady_clock;
     const auto began = Clock::now();
-    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, row.converged);
+    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, last);
     row.alternation = row.error->alternation;
     judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace hopmesh::levels {
 
@@ -29,14 +30,25 @@ reference::State state_of(const StepState& state) {
   return result;
 }
 
+namespace {
+
+/// Where outputs are so many sweeps later.
+using Swept = std::function<Vector(const Vector& from, std::uint32_t sweeps)>;
+
+double alternation_of(const Swept& swept, const Vector& V) {
+  const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
+  const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
+  return first > 0 && away < first / 2 ? last / first : 0;
+}
+
+} // namespace
+
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
                    reference::Neuron neuron) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
     return reference::relax(network, order, from, 0, sweeps, neuron).V;
   };
-  const Vector once = swept(V, 1), later = swept(once, swings - 1), then = swept(later, 1);
-  const double first = (once - V).norm(), away = (later - V).norm(), last = (then - later).norm();
-  return first > 0 && away < first / 2 ? last / first : 0;
+  return alternation_of(swept, V);
 }
 
 reference::Neuron neuron_of(spec::Output output) {
@@ -75,36 +87,71 @@ reference::Network ReferenceCheck::expanded(const std::vector<double>& start, do
 }
 
 ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
-                                     bool rested) const {
-  Vector V0;
-  const reference::Network network = expanded(start, scale, V0);
-  const Vector wanted =
-      reference::relax(network, order_, V0, motion_.threshold, motion_.max_sweeps, motion_.neuron).V;
+                                     const hm_relaxation& last) const {
+  reference::Answer answer;
+  const reference::Network network = expanded(start, scale, answer.start);
   const std::size_t neurons = start.size();
-  const Vector V = by_node(std::vector<double>(built.output, built.output + neurons));
+  answer.V = by_node(std::vector<double>(built.output, built.output + neurons));
+  answer.sweeps = last.sweeps;
+  const bool signs = motion_.neuron == reference::Neuron::binary;
+  const reference::BlockNetwork blocks(network, static_cast<Eigen::Index>(mesh_.components()));
+  const reference::Judgement judgement =
+      signs ? reference::judge_signs(network, order_, answer, motion_.max_sweeps)
+            : reference::judge_answer(blocks, order_, answer);
+  const auto rms = [&](const Vector& a, const Vector& b) {
+    return std::sqrt((a - b).squaredNorm() / static_cast<double>(neurons));
+  };
   ReferenceError error;
-  error.largest_output = (V - wanted).cwiseAbs().maxCoeff();
-  error.rms_output = std::sqrt((V - wanted).squaredNorm() / static_cast<double>(neurons));
-  const double rest = reference::network_energy(network, wanted);
-  const double fall = reference::network_energy(network, V0) - rest;
-  if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
+  error.largest_output = (answer.V - judgement.rest).cwiseAbs().maxCoeff();
+  error.rms_output = rms(answer.V, judgement.rest);
+  error.rounding = rms(answer.V, judgement.same_sweeps);
+  error.stopping = rms(judgement.same_sweeps, judgement.rest);
+  error.energy_gap = judgement.gap;
   error.network = network_difference(network, built);
-  if (!rested) error.alternation = alternation(network, order_, V, motion_.neuron);
+  if (last.converged) return error;
+  const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
+    return blocks.swept(order_, from, sweeps);
+  };
+  error.alternation =
+      signs ? alternation(network, order_, answer.V, motion_.neuron) : alternation_of(swept, answer.V);
   return error;
 }
 
-// The firmware's rows against the reference's matrix, entry by entry.
+namespace {
+
+/// Where a row of the matrix has a column; null where it has none.
+const double* weight_at(const reference::Matrix& W, std::uint32_t row, std::uint32_t column) {
+  const auto* const columns = W.innerIndexPtr();
+  const auto* const first = columns + W.outerIndexPtr()[row];
+  const auto* const last = columns + W.outerIndexPtr()[row + 1];
+  const auto* const at = std::lower_bound(first, last, static_cast<reference::Matrix::StorageIndex>(column));
+  return at != last && *at == static_cast<reference::Matrix::StorageIndex>(column)
+             ? W.valuePtr() + (at - columns)
+             : nullptr;
+}
+
+} // namespace
+
+// The firmware's rows against the reference's matrix, entry by entry. A node's columns follow each other.
 double ReferenceCheck::network_difference(const reference::Network& network, const hm_network& built) const {
+  const hm_mesh& m = mesh_.firmware();
+  const std::uint32_t n = m.components;
   double largest = 0, difference = 0;
   const auto compare = [&](double wanted, double found) {
     largest = std::max(largest, std::fabs(wanted));
     difference = std::max(difference, std::fabs(wanted - found));
   };
-  const std::vector<double> bias = mesh_.by_cell(network.I);
-  for (std::size_t k = 0; k < bias.size(); ++k) compare(bias[k], built.bias[k]);
-  mesh_.each_weight([&](std::size_t place, std::uint32_t row, std::uint32_t column) {
-    compare(network.W.coeff(row, column), built.weight[place]);
-  });
+  for (std::uint32_t c = 0; c < m.cells; ++c)
+    for (std::uint32_t p = 0; p < n; ++p) {
+      const std::uint32_t row = m.node_of_cell[c] * n + p;
+      compare(network.I[row], built.bias[c * n + p]);
+      const double* found = built.weight + hm_row_offset(&m, c, p);
+      for (std::uint32_t t = 0; t < hm_row_length(&m, c); t += n, found += n) {
+        const std::uint32_t source = t == 0 ? c : m.link_to[m.first_link[c] + t / n - 1];
+        const double* const wanted = weight_at(network.W, row, m.node_of_cell[source] * n);
+        for (std::uint32_t q = 0; q < n; ++q) compare(wanted ? wanted[q] : 0, found[q]);
+      }
+    }
   return largest > 0 ? difference / largest : 0;
 }
 

@@ -1,8 +1,9 @@
 // Beside every step of an array: the double reference's answer to the very same step.
 #pragma once
 
+#include "firmware/relax.h"
 #include "sim/levels/mover.h"
-#include "sim/reference/reference.h"
+#include "sim/reference/judgement.h"
 
 namespace hopmesh::levels {
 
@@ -32,9 +33,9 @@ class ReferenceCheck {
   void begin(const StepState& state, const double* node_force);
   /// After it: the network that the firmware built about `start` and the outputs that the array came to.
   /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
-  /// the incremental formulation, at the array's own scale. `rested`: the array came to rest.
+  /// the incremental formulation, at the array's own scale. `last`: what the array took for it.
   ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale,
-                       bool rested) const;
+                       const hm_relaxation& last) const;
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;

@@ -9,10 +9,11 @@
 namespace hopmesh::levels {
 
 /// How the array's answer to a step differs from the double reference's answer to the same step (same
-/// positions, velocities and start). The reference relaxes to the same threshold, in the same order.
+/// positions, velocities and start): V against its rest, and against where it is after the same sweeps.
 struct ReferenceError {
-  double largest_output = 0, rms_output = 0; ///< |V - V_reference|
-  /// (E(V) - E(V_ref)) / (E(V0) - E(V_ref)), of the network's energy; 0 where nothing falls.
+  double largest_output = 0, rms_output = 0; ///< |V - V_rest|
+  double rounding = 0, stopping = 0;         ///< rms of |V - V_same sweeps|, |V_same sweeps - V_rest|
+  /// (E(V) - E(V_rest)) / (E(V0) - E(V_rest)), of the network's energy; 0 where nothing falls.
   double energy_gap = 0;
   double network = 0;
   double alternation = 0; ///< of a step that did not come to rest: as in StepRow
@@ -119,14 +120,22 @@ inline constexpr StepColumn all_step_columns[] = {
                &StepRow::clipped, Subject::network, {},
                Total{Summary::sum, "clipped", "weights and biases clipped", "{}"}),
     StepColumn("output_error", "",
-               "largest |V − V of the reference|, the reference answering the very same step",
+               "largest |V − V at rest|, of the reference brought to rest on the very same step",
                &ReferenceError::largest_output, Subject::reference,
-               Curve{"largest output error against the reference"},
+               Curve{"largest output error against the reference's rest"},
                Total{Summary::largest, "largest_output_error", "largest output error", "{:.3g}"}),
     StepColumn(
         "output_error_rms", "", "root mean square over neurons of that difference",
         &ReferenceError::rms_output, Subject::reference, {},
         Total{Summary::median, "median_output_error_rms", "output error of a step", "{:.3g} rms (median)"}),
+    StepColumn("rounding_error", "",
+               "the words' part of it: rms of V against the reference after as many sweeps as the array did",
+               &ReferenceError::rounding, Subject::reference, {},
+               Total{Summary::median, "median_rounding_error", "of it by rounding", "{:.3g} rms (median)"}),
+    StepColumn("stopping_error", "",
+               "the part of where the step stopped: rms of the reference after these sweeps against its rest",
+               &ReferenceError::stopping, Subject::reference, {},
+               Total{Summary::median, "median_stopping_error", "of it by stopping", "{:.3g} rms (median)"}),
     StepColumn(
         "energy_gap", "", "energy left above the reference's rest, as a part of the step's fall",
         &ReferenceError::energy_gap, Subject::reference,

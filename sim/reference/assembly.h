@@ -46,15 +46,15 @@ class Assembly {
  public:
   explicit Assembly(const scene::Mesh& mesh)
       : mesh_(mesh), gradient_(Vector::Zero(components(mesh) * nodes_of(mesh))),
-        diagonal_(mesh.nodes(), Block::Zero()) {}
+        diagonal_(mesh.nodes(), Block::Zero()), neighbours_(mesh.nodes()) {}
 
   void add_spring(const scene::Spring& spring, const Expansion& term) {
     const auto [i, j] = spring.node;
     add_node(i, term);
     add_node(j, {term.curvature, -term.slope});
     if (mesh_.pinned[i] || mesh_.pinned[j]) return;
-    add_weights(i, j, term.curvature);
-    add_weights(j, i, term.curvature);
+    link(i, j, term.curvature);
+    link(j, i, term.curvature);
   }
 
   void add_node(Eigen::Index node, const Expansion& term) {
@@ -67,25 +67,56 @@ class Assembly {
   // W = -H, I = H V0 - g.
   Network network(const Vector& V0) {
     for (Eigen::Index node = 0; node < nodes_of(mesh_); ++node)
-      if (!mesh_.pinned[node]) add_weights(node, node, -diagonal_[node]);
-    Matrix W(gradient_.size(), gradient_.size());
-    W.setFromTriplets(weights_.begin(), weights_.end());
+      if (!mesh_.pinned[node]) link(node, node, -diagonal_[node]);
+    Matrix W = weights();
     Vector I = -(W * V0) - gradient_;
-    return {W, std::move(I)};
+    return {std::move(W), std::move(I)};
   }
 
  private:
-  // Zeros are kept: which weights exist follows from the mesh alone, not from where it happens to be.
-  void add_weights(Eigen::Index i, Eigen::Index j, const Block& block) {
-    for (Eigen::Index p = 0; p < components(mesh_); ++p)
-      for (Eigen::Index q = 0; q < components(mesh_); ++q)
-        weights_.emplace_back(row(mesh_, i, p), row(mesh_, j, q), block(axis(mesh_, p), axis(mesh_, q)));
+  /// What another node, or the node itself, does to a node.
+  struct Link {
+    Eigen::Index from;
+    Block weight;
+  };
+
+  // In the order of the columns. Two springs between the same nodes make a single block.
+  void link(Eigen::Index node, Eigen::Index from, const Block& weight) {
+    auto& all = neighbours_[node];
+    auto at = all.end();
+    while (at != all.begin() && std::prev(at)->from >= from) --at;
+    if (at != all.end() && at->from == from)
+      at->weight += weight;
+    else
+      all.insert(at, {from, weight});
+  }
+
+  // Row by row, as the matrix keeps them. Zeros are kept: which weights exist follows from the mesh alone,
+  // not from where it happens to be.
+  Matrix weights() const {
+    const Eigen::Index n = components(mesh_);
+    std::size_t blocks = 0;
+    for (const auto& links : neighbours_) blocks += links.size();
+    Matrix W(gradient_.size(), gradient_.size());
+    W.resizeNonZeros(static_cast<Eigen::Index>(blocks) * n * n);
+    auto *start = W.outerIndexPtr(), *column = W.innerIndexPtr();
+    double* value = W.valuePtr();
+    for (const auto& links : neighbours_)
+      for (Eigen::Index p = 0; p < n; ++p, ++start) {
+        for (const Link& link : links)
+          for (Eigen::Index q = 0; q < n; ++q) {
+            *column++ = static_cast<Matrix::StorageIndex>(row(mesh_, link.from, q));
+            *value++ = link.weight(axis(mesh_, p), axis(mesh_, q));
+          }
+        start[1] = static_cast<Matrix::StorageIndex>(value - W.valuePtr());
+      }
+    return W;
   }
 
   const scene::Mesh& mesh_;
   Vector gradient_;
   std::vector<Block, Eigen::aligned_allocator<Block>> diagonal_;
-  std::vector<Eigen::Triplet<double>> weights_;
+  std::vector<std::vector<Link>> neighbours_;
 };
 
 } // namespace hopmesh::reference

@@ -28,7 +28,8 @@ struct PointRow {
   Stability stability = Stability::stable;
   std::uint64_t steps = 0, sweeps = 0, cycles = 0, bus_cycles = 0, memory_bits = 0, multiplies = 0;
   double array_seconds = 0, host_seconds = 0, largest_strain = 0, omega = 0;
-  Maybe output_error, output_error_median, position_error;
+  Maybe output_error, output_error_median, rounding_error, rounding_error_median, stopping_error;
+  Maybe stopping_error_median, position_error;
   std::vector<Maybe> reference_at, truth_at, floor_at; ///< [times of the study]
   std::string sentence;
 };
@@ -57,11 +58,20 @@ inline constexpr ResultColumn all_result_columns[] = {
     {"method", "", "that ran it", &Point::method},
     {"status", "", "`finished`, `diverged`, `crashed` or `failed`", &PointRow::outcome},
     {"class", "", "what became of the motion, in a word: see [stability](#stability)", &PointRow::stability},
-    {"output_error", "",
-     "rms of V against the reference's answer to the same step, over all steps and neurons",
+    {"output_error", "", "rms of V against the reference's rest of the same step, over all steps and neurons",
      &PointRow::output_error, Role::error},
     {"output_error_median", "", "rms of V over neurons, of the median step", &PointRow::output_error_median,
      Role::error},
+    {"rounding_error", "",
+     "the words' part of it: rms of V against the reference after as many sweeps as the array did, over all "
+     "steps and neurons",
+     &PointRow::rounding_error, Role::error},
+    {"rounding_error_median", "", "of the median step", &PointRow::rounding_error_median, Role::error},
+    {"stopping_error", "",
+     "the part of where steps stopped: rms of the reference after these sweeps against its rest, over all "
+     "steps and neurons",
+     &PointRow::stopping_error, Role::error},
+    {"stopping_error_median", "", "of the median step", &PointRow::stopping_error_median, Role::error},
     {"position_error", "m", "rms of positions against the free motion of the reference, at the end",
      &PointRow::position_error, Role::error},
     {"reference_error", "m", "rms of positions against the free motion of the reference, at time T",

@@ -1,7 +1,6 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/levels/reference_mover.h"
 #include "sim/run/array_info.h"
 #include "sim/run/run_totals.h"
 #include "sim/scene/frequency.h"
@@ -41,22 +40,19 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
   row.bus_cycles = run::count_of(result.rows, &StepRow::bus_cycles, Summary::sum);
   row.largest_strain = run::total_of(result.rows, &StepRow::max_strain, Summary::largest);
   if (run::is_judged(result.rows)) {
-    row.output_error = run::total_of(result.rows, &ReferenceError::rms_output, Summary::rms);
-    row.output_error_median = run::total_of(result.rows, &ReferenceError::rms_output, Summary::median);
+    const auto over_steps = [&](double ReferenceError::*figure, Summary how) {
+      return run::total_of(result.rows, figure, how);
+    };
+    row.output_error = over_steps(&ReferenceError::rms_output, Summary::rms);
+    row.output_error_median = over_steps(&ReferenceError::rms_output, Summary::median);
+    row.rounding_error = over_steps(&ReferenceError::rounding, Summary::rms);
+    row.rounding_error_median = over_steps(&ReferenceError::rounding, Summary::median);
+    row.stopping_error = over_steps(&ReferenceError::stopping, Summary::rms);
+    row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
   if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
   if (row.cycles > 0) row.memory_bits = run::memory_bits(mesh, inputs.array).total();
-}
-
-void against_reference(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                       const std::vector<double>& times, const run::Snapshots& ours,
-                       const run::Positions& last, const std::atomic<bool>& stop, PointRow& row) {
-  levels::ReferenceMover motion(inputs.scene, mesh, inputs.array);
-  run::Snapshots theirs(times, inputs.scene.motion.time_step);
-  const run::RunResult result = run::simulate(motion, row.steps, {&theirs}, stop);
-  if (result.rows.size() == row.steps) row.position_error = run::rms_distance(last, motion.positions());
-  row.reference_at = distances(ours.at, theirs.at);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
@@ -84,7 +80,11 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
   sum_up(result, inputs, mesh, row);
   row.omega = scene::largest_frequency(mesh.mesh());
   row.stability = classify(result.rows, facts_of(inputs, mesh, result));
-  if (row.steps > 0) against_reference(inputs, mesh, times, ours, motion->positions(), stop, row);
+  if (row.steps > 0) {
+    const FreeMotion reference = methods.reference(inputs, mesh, times, row.steps, stop);
+    if (!reference.last.empty()) row.position_error = run::rms_distance(motion->positions(), reference.last);
+    row.reference_at = distances(ours.at, reference.at);
+  }
   if (!times.empty()) {
     const Truth truth = methods.truth(inputs, mesh, times);
     row.truth_at = distances(ours.at, truth.positions);

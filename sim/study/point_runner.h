@@ -12,6 +12,12 @@ namespace hopmesh::study {
 
 using Truth = levels::ExactMotion;
 
+/// The reference's own motion of a scene, at a few times and in the end; empty where it did not come so far.
+struct FreeMotion {
+  std::vector<run::Positions> at; ///< [times]
+  run::Positions last;
+};
+
 /// The methods a study may name, given by whoever can see them all. A method is a Motion: levels of the
 /// array, the reference, and integrators alike.
 struct Methods {
@@ -21,9 +27,14 @@ struct Methods {
   std::function<Truth(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                       const std::vector<double>& times)>
       truth;
+  /// After so many steps.
+  std::function<FreeMotion(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                           const std::vector<double>& times, std::uint64_t steps,
+                           const std::atomic<bool>& stop)>
+      reference;
 };
 
-/// Runs it here and now, and the reference beside it; positions are compared at the `times`, s. Throws only
+/// Runs it here and now; positions are compared at the `times`, s. Throws only
 /// what is a defect; a point that diverges is a row.
 PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::vector<double>& times,
                    const Methods& methods, const std::atomic<bool>& stop);

@@ -44,8 +44,11 @@ TEST(ArrayMover, FollowsTheReferenceAsFarAsTheFormatsReach) {
       EXPECT_EQ(a.converged, b.converged);
       // A drive of 24 fraction bits sees no slope below 6e-8; the flattest direction is some 1e4 times
       // flatter than N.
-      EXPECT_LT(a.error->largest_output, 2e-3);
+      EXPECT_LT(a.error->rounding, 2e-3);
       EXPECT_LT(a.error->rms_output, a.error->largest_output);
+      EXPECT_LE(a.error->rms_output, 1.0000001 * (a.error->rounding + a.error->stopping))
+          << "the two are its parts";
+      EXPECT_GE(a.error->energy_gap, -1e-13);
       EXPECT_LT(a.error->network, 1e-13);
       EXPECT_LT(largest_difference(rig.motion.positions(), reference.positions()), 1e-6);
       EXPECT_NEAR(a.energy, b.energy, 1e-6);
@@ -56,7 +59,7 @@ TEST(ArrayMover, FollowsTheReferenceAsFarAsTheFormatsReach) {
 TEST(ArrayMover, ACoarseArrayIsFurtherOff) {
   spec::ArraySpec byte = *spec::preset("byte");
   Rig fine(grid_scene(3, 3)), coarse(grid_scene(3, 3), byte);
-  EXPECT_GT(coarse.motion.advance().error->largest_output, 100 * fine.motion.advance().error->largest_output);
+  EXPECT_GT(coarse.motion.advance().error->rounding, 100 * fine.motion.advance().error->rounding);
 }
 
 TEST(ArrayMover, RowsTellStepTimeCyclesAndBus) {

@@ -94,8 +94,9 @@ TEST(StepTotals, StandMediansBeforeLargestValues) {
   rows[0].error.emplace().rms_output = 0.5;
   std::vector<std::string> keys;
   for (const run::RunTotal& t : run::totals_about(Subject::reference, rows)) keys.emplace_back(t.total->key);
-  EXPECT_THAT(keys, ElementsAre("median_output_error_rms", "median_energy_gap", "largest_output_error",
-                                "largest_energy_gap", "largest_network_error"));
+  EXPECT_THAT(keys, ElementsAre("median_output_error_rms", "median_rounding_error", "median_stopping_error",
+                                "median_energy_gap", "largest_output_error", "largest_energy_gap",
+                                "largest_network_error"));
 }
 
 TEST(StepTotals, ShowCountsInGroups) {

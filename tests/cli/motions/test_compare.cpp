@@ -24,7 +24,7 @@ TEST_F(CliCompare, ByDefaultTakesReferenceEngineAndSystemcAndTellsTheError) {
   EXPECT_THAT(f.out, HasSubstr("reference: "));
   EXPECT_THAT(f.out, HasSubstr("engine: "));
   EXPECT_THAT(f.out, HasSubstr("systemc: "));
-  EXPECT_THAT(f.out, HasSubstr("each step against the reference's answer to the same step"));
+  EXPECT_THAT(f.out, HasSubstr("each step against the reference's rest of the same step"));
   EXPECT_THAT(f.out, HasSubstr("after     1 step   rms "));
   EXPECT_THAT(f.out, HasSubstr("after    10 steps  rms "));
   EXPECT_THAT(f.out, HasSubstr("engine: "));

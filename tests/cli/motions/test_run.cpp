@@ -137,7 +137,8 @@ TEST_F(CliRun, NoCheckLeavesTheReferenceOutAndTheBitsAlone) {
   EXPECT_EQ(content_of(with / "outputs_raw.npy"), content_of(without / "outputs_raw.npy"));
   const Table a = read_table(with / "steps.csv"), b = read_table(without / "steps.csv");
   EXPECT_EQ(a.column.at("hash"), b.column.at("hash"));
-  for (const char* name : {"output_error", "output_error_rms", "energy_gap", "network_error"})
+  for (const char* name : {"output_error", "output_error_rms", "rounding_error", "stopping_error",
+                           "energy_gap", "network_error"})
     for (std::size_t k = 0; k < 40; ++k) {
       EXPECT_NE(a.column.at(name)[k], "") << name;
       EXPECT_EQ(b.column.at(name)[k], "") << name;

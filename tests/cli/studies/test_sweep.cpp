@@ -38,14 +38,15 @@ TEST_F(CliSweep, HasARowAPointInOrderWhateverTheWorkers) {
   const auto rows = rows_of("one");
   EXPECT_EQ(rows, rows_of("two"));
   ASSERT_EQ(rows.size(), 1u + 2 * 2 * 2);
-  const std::vector<std::string> head(rows[0].begin(), rows[0].begin() + 11);
-  EXPECT_EQ(head, (std::vector<std::string>{"point", "motion.time_step", "array.lanes", "method", "status",
-                                            "class", "output_error", "output_error_median", "position_error",
-                                            "reference_error@0.1", "truth_error@0.1"}));
+  const std::vector<std::string> head(rows[0].begin(), rows[0].begin() + 15);
+  EXPECT_EQ(head, (std::vector<std::string>{
+                      "point", "motion.time_step", "array.lanes", "method", "status", "class", "output_error",
+                      "output_error_median", "rounding_error", "rounding_error_median", "stopping_error",
+                      "stopping_error_median", "position_error", "reference_error@0.1", "truth_error@0.1"}));
   EXPECT_EQ(std::vector<std::string>(rows[6].begin(), rows[6].begin() + 5),
             (std::vector<std::string>{"5", "0.02", "2", "engine", "finished"}));
-  EXPECT_EQ(rows[1][8], "0") << "the reference against itself";
-  EXPECT_GT(std::stod(rows[6][8]), 0);
+  EXPECT_EQ(rows[1][12], "0") << "the reference against itself";
+  EXPECT_GT(std::stod(rows[6][12]), 0);
 }
 
 TEST_F(CliSweep, TwoAxesMeetInOneKey) {

@@ -1,0 +1,135 @@
+// The loops of block_kernel.h, included once for each instruction set.
+#include "sim/reference/block_kernel.h"
+
+namespace hopmesh::reference {
+namespace {
+
+using Four = double __attribute__((vector_size(32), may_alias));
+
+inline const Four* fours(const Quad* quads) {
+  return reinterpret_cast<const Four*>(quads);
+}
+inline Four* fours(Quad* quads) {
+  return reinterpret_cast<Four*>(quads);
+}
+
+inline double total(const Four& sums) {
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Adds to `sum` what `count` blocks bring; a sum for each column, so that no addition waits for the last.
+template <std::size_t n>
+inline void add_blocks(const Four* weight, const std::uint32_t* source, std::size_t count, const Quad* V,
+                       Four& sum) {
+  Four second{}, third{};
+  for (std::size_t k = 0; k < count; ++k, weight += n) {
+    const double* v = V[source[k]].lane;
+    sum += weight[0] * v[0];
+    if (n > 1) second += weight[1] * v[1];
+    if (n > 2) third += weight[2] * v[2];
+  }
+  sum += second + third;
+}
+
+/// s of a node's neurons but for what they do to each other.
+template <std::size_t n>
+inline void add_sources(const BlockRows& rows, std::size_t node, const Quad* V, Four& sum) {
+  const std::uint32_t from = rows.first[node];
+  add_blocks<n>(fours(rows.weight) + n * from, rows.source + from, rows.first[node + 1] - from, V, sum);
+}
+
+template <std::size_t n> void inputs_of(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
+  for (std::size_t node = 0; node < rows.nodes; ++node) {
+    Four sum = fours(bias)[node];
+    add_sources<n>(rows, node, V, sum);
+    const auto self = static_cast<std::uint32_t>(node);
+    add_blocks<n>(fours(rows.own) + n * node, &self, 1, V, sum);
+    fours(s)[node] = sum;
+  }
+}
+
+// Paper eqs. 10 to 12, with R u = u - V |u|: no neuron waits for a comparison.
+inline double fired(double s, double share, double V) {
+  const double u = s * share;
+  return V + (u - V * __builtin_fabs(u));
+}
+
+// What the node's later neurons bring is added before it is known what the earlier ones came to: a neuron
+// waits for the one before it, and the less there is left to do then, the better.
+template <std::size_t n>
+void sweep_over(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
+                Quad* V) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t at = node[k];
+    Four sum = fours(bias)[at];
+    add_sources<n>(rows, at, V, sum);
+    double* const v = V[at].lane;
+    const Quad *const own = rows.own + n * at, &share = rows.share[at];
+    for (std::size_t p = 0; p < n; ++p) {
+      double s = sum[p];
+      for (std::size_t q = n; q-- > 0;) s += own[q].lane[p] * v[q];
+      v[p] = fired(s, share.lane[p], v[p]);
+    }
+  }
+}
+
+void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
+  if (rows.components == 3) return inputs_of<3>(rows, bias, V, s);
+  if (rows.components == 2) return inputs_of<2>(rows, bias, V, s);
+  inputs_of<1>(rows, bias, V, s);
+}
+
+void sweep(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count, Quad* V) {
+  if (rows.components == 3) return sweep_over<3>(rows, bias, node, count, V);
+  if (rows.components == 2) return sweep_over<2>(rows, bias, node, count, V);
+  sweep_over<1>(rows, bias, node, count, V);
+}
+
+void turn(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction) {
+  for (std::size_t k = 0; k < nodes; ++k)
+    fours(direction)[k] = fours(step)[k] * fours(free)[k] + kept * fours(direction)[k];
+}
+
+void bend(std::size_t nodes, const DescentFields& at, double& curvature, double& most) {
+  Four bent{}, allowed{};
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const Four d = fours(at.direction)[k];
+    bent -= d * fours(at.change)[k];
+    allowed += fours(at.reach)[k] * d * d;
+  }
+  curvature = total(bent);
+  most = total(allowed);
+}
+
+Standing walk(std::size_t nodes, const DescentFields& from, double far, Quad* V, Quad* s, Quad* free) {
+  const Four none{}, one = none + 1;
+  Four slope{}, inward{}, farthest{}, edge{};
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const Four d = fours(from.direction)[k], step = fours(from.step)[k];
+    const Four v = fours(from.V)[k] + far * d, here = fours(from.s)[k] + far * fours(from.change)[k];
+    fours(V)[k] = v;
+    fours(s)[k] = here;
+    const Four size = v < none ? -v : v;
+    const Four moved = d != none ? size : none;
+    edge = moved > edge ? moved : edge;
+    const Four between = size < one ? here : none, wanted = step * here;
+    fours(free)[k] = between;
+    slope += between * step * between;
+    Four there = v + wanted;
+    there = there > one ? one : there;
+    there = there < -one ? -one : there;
+    const Four way = there < v ? v - there : there - v;
+    const Four leaves = way > none ? here : none, away = size < one ? none : here * v < none ? leaves : none;
+    inward += away * step * away;
+    farthest = way > farthest ? way : farthest;
+  }
+  Standing standing{total(slope), total(inward), 0, true};
+  for (std::size_t p = 0; p < 4; ++p) {
+    if (farthest[p] > standing.violation) standing.violation = farthest[p];
+    standing.inside = standing.inside && edge[p] < 1;
+  }
+  return standing;
+}
+
+} // namespace
+} // namespace hopmesh::reference
