@@ -1,6 +1,7 @@
 #include "sim/levels/reference_check.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/levels/left_over.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const double fall = reference::network_energy(network, V0) - rest;
   if (fall > 0) error.energy_gap = (reference::network_energy(network, V) - rest) / fall;
   error.network = network_difference(network, built);
+  error.fall_left = fall_left(network, V0, V, order_, motion_.output);
   if (!rested) error.alternation = alternation(network, order_, V, motion_.output);
   return error;
 }

@@ -1,6 +1,6 @@
 #include "sim/levels/reference_mover.h"
 
-#include "sim/levels/reference_check.h"
+#include "sim/levels/left_over.h"
 
 #include <cmath>
 
@@ -33,6 +33,8 @@ StepRow ReferenceMover::advance() {
   row.converged = last_.relaxation.converged;
   if (!row.converged)
     row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.output);
+  row.input_left = input_left(last_.network, last_.relaxation.V);
+  row.fall_left = fall_left(last_.network, last_.V0, last_.relaxation.V, order_, motion_.output);
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
