@@ -27,16 +27,10 @@ static void predict(const hm_step_work* work, double tau) {
     }
 }
 
-/* That of the step before, or else what the springs alone would give at C. */
+/* That of the step before, or else what the pull alone tells. */
 static double expected_change(const hm_step_work* work) {
-  const hm_mesh* mesh = work->mesh;
-  hm_state* state = work->state;
-  const double before = hm_largest(state->acceleration, 3 * mesh->nodes);
-  if (before > 0) return before;
-  hm_clear_outputs(work);
-  hm_network_build_incremental(mesh, state->predicted, 1, 0, &state->network);
-  const double pull = hm_largest(state->network.bias, hm_neuron_count(mesh));
-  return pull > 0 ? pull / (work->inertia * work->h) : 0.5; /* nothing pulls: any scale will do */
+  const double before = hm_largest(work->state->acceleration, 3 * work->mesh->nodes);
+  return before > 0 ? before : hm_change_by_pull(work);
 }
 
 /* V0: the change of acceleration of the step before. */

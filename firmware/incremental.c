@@ -30,6 +30,26 @@ static double power_above(double x) {
   return power;
 }
 
+/* The largest weight of a neuron to itself. */
+static double largest_own(const hm_mesh* mesh, const hm_network* network) {
+  double largest = 0;
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p) {
+      const double own = hm_magnitude(network->weight[hm_row_offset(mesh, c, p) + p]);
+      if (!(own <= largest)) largest = own;
+    }
+  return largest;
+}
+
+double hm_change_by_pull(const hm_step_work* work) {
+  hm_state* state = work->state;
+  hm_clear_outputs(work);
+  state->scale = 1;
+  work->parameters->formulation->build(work);
+  const double pull = hm_largest(state->network.bias, hm_neuron_count(work->mesh));
+  return pull > 0 ? pull / largest_own(work->mesh, &state->network) : 0.5; /* any scale will do */
+}
+
 void hm_choose_scale(const hm_step_work* work, double expected_change) {
   const double wanted = 2 * expected_change;
   work->state->scale = power_above(wanted < work->most_scale ? wanted : work->most_scale);
@@ -47,20 +67,40 @@ static void rescale(const hm_step_work* work, double scale) {
   state->scale = scale;
 }
 
-/* The scale may grow as often as it must, and shrink once. */
+/* At a scale that is too large for the array's words nothing moves at all, however hard it is pulled. */
+static double smaller_scale(const hm_step_work* work, double largest) {
+  const hm_state* state = work->state;
+  if (largest > 0) return power_above(2 * largest * state->scale);
+  const double pull = hm_largest(state->network.bias, hm_neuron_count(work->mesh));
+  return pull > 0 ? state->scale / 4 : state->scale;
+}
+
+/* Below it an output of 1 moves no node by a last place: no force is left that matters. */
+static double least_useful_scale(const hm_step_work* work) {
+  return 0x1p-53 * hm_largest(work->state->predicted, 3 * work->mesh->nodes) / work->h;
+}
+
+/* The scale to relax at again; the one that is where that is good enough. */
+static double better_scale(const hm_step_work* work, uint32_t growths) {
+  const double scale = work->state->scale;
+  const double largest = hm_largest(work->state->network.output, hm_neuron_count(work->mesh));
+  if (largest > most_output)
+    return 2 * scale <= work->most_scale && growths < most_growths ? 2 * scale : scale;
+  if (largest >= least_output || growths > 0) return scale;
+  const double smaller = smaller_scale(work, largest);
+  return smaller < scale && smaller >= least_useful_scale(work) ? smaller : scale;
+}
+
+/* The scale shrinks as often as it must, then grows as often as it must; behind that it stays, so that an end
+   comes. */
 int hm_relax_in_range(const hm_step_work* work) {
   const hm_state* state = work->state;
-  int shrunk = 0;
   for (uint32_t growths = 0;;) {
     const int error = hm_expand(work);
     if (error != HM_OK) return error;
-    const double largest = hm_largest(state->network.output, hm_neuron_count(work->mesh));
-    const double fitting = power_above(2 * largest * state->scale);
-    if (largest > most_output && 2 * state->scale <= work->most_scale && growths++ < most_growths)
-      rescale(work, 2 * state->scale);
-    else if (largest > 0 && largest < least_output && !shrunk++ && fitting < state->scale)
-      rescale(work, fitting);
-    else
-      return HM_OK;
+    const double better = better_scale(work, growths);
+    if (better == state->scale) return HM_OK;
+    growths += better > state->scale;
+    rescale(work, better);
   }
 }

@@ -15,6 +15,10 @@ double hm_largest(const double* values, uint32_t count);
 
 void hm_clear_outputs(const hm_step_work* work);
 
+/* What the largest pull does to the stiffest node, its own weight alone holding it: at least half of what is
+   to come. Leaves a network at another scale behind. */
+double hm_change_by_pull(const hm_step_work* work);
+
 /* For a change of which half the range is expected to be used, as far as the work's most_scale allows. */
 void hm_choose_scale(const hm_step_work* work, double expected_change);
 

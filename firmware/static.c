@@ -23,26 +23,6 @@ static void build(const hm_step_work* work) {
           state->scale * load(work->parameters, mesh->node_of_cell[c], mesh->axis[p]);
 }
 
-/* The largest weight of a neuron to itself. */
-static double largest_own(const hm_mesh* mesh, const hm_network* network) {
-  double largest = 0;
-  for (uint32_t c = 0; c < mesh->cells; ++c)
-    for (uint32_t p = 0; p < mesh->components; ++p) {
-      const double own = hm_magnitude(network->weight[hm_row_offset(mesh, c, p) + p]);
-      if (!(own <= largest)) largest = own;
-    }
-  return largest;
-}
-
-/* What the largest pull does to the stiffest node: at least half of what is to come. */
-static double expected_change(const hm_step_work* work) {
-  hm_state* state = work->state;
-  state->scale = 1;
-  build(work);
-  const double pull = hm_largest(state->network.bias, hm_neuron_count(work->mesh));
-  return pull > 0 ? pull / largest_own(work->mesh, &state->network) : 0.5; /* any scale will do */
-}
-
 /* A quadratic mesh is solved as it is, however far that is; elsewhere a step trusts its expansion no further
    than the longest spring. */
 static void begin(hm_step_work* work) {
@@ -51,8 +31,7 @@ static void begin(hm_step_work* work) {
   work->h = 1;
   work->most_scale = hm_springs_are_quadratic(mesh) ? 0x1p1000 : hm_longest_spring(mesh, state->position);
   for (uint32_t k = 0; k < 3 * mesh->nodes; ++k) state->predicted[k] = state->position[k];
-  hm_clear_outputs(work);
-  hm_choose_scale(work, expected_change(work));
+  hm_choose_scale(work, hm_change_by_pull(work)); /* it leaves V0 = 0 */
 }
 
 static void find_next(const hm_step_work* work, uint32_t cell, hm_coordinate* next) {

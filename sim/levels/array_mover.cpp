@@ -1,6 +1,7 @@
 #include "sim/levels/array_mover.h"
 
 #include "sim/levels/bus_array.h"
+#include "sim/levels/left_over.h"
 
 #include <algorithm>
 #include <chrono>
@@ -94,6 +95,7 @@ StepRow ArrayMover::advance() {
   row.sweeps = result.relaxation.sweeps;
   row.cycles = result.relaxation.cycles;
   row.converged = result.relaxation.converged;
+  row.input_left = input_left(mesh_.firmware(), memory_.state.network);
   row.clipped = driver_.clipped;
   row.bus_cycles = bus_cycles() - bus_before;
   row.saturated = static_cast<std::uint64_t>(std::count_if(
@@ -104,6 +106,7 @@ StepRow ArrayMover::advance() {
     const auto began = Clock::now();
     row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, last);
     row.alternation = row.error->alternation;
+    row.fall_left = row.error->fall_left;
     judging_seconds_ += std::chrono::duration<double>(Clock::now() - began).count();
   }
   row.hash = state_hash(memory_.now);

@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/eigen_vectors.h"
+#include "sim/levels/left_over.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.rounding = rms(answer.V, judgement.same_sweeps);
   error.stopping = rms(judgement.same_sweeps, judgement.rest);
   error.energy_gap = judgement.gap;
+  error.fall_left = fall_left(network, answer.start, answer.V, judgement.rest);
   error.network = network_difference(network, built);
   if (last.converged) return error;
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {

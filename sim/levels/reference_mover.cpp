@@ -1,7 +1,10 @@
 #include "sim/levels/reference_mover.h"
 
 #include "sim/levels/eigen_vectors.h"
+#include "sim/levels/left_over.h"
 #include "sim/levels/reference_check.h"
+#include "sim/reference/judgement.h"
+#include "sim/reference/rest.h"
 
 #include <cmath>
 
@@ -30,11 +33,25 @@ StepRow ReferenceMover::advance() {
   row.converged = last_.relaxation.converged;
   if (!row.converged)
     row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.neuron);
+  row.input_left = input_left(last_.network, last_.relaxation.V);
+  row.fall_left = left_of_fall();
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
     row.saturated += std::fabs(last_.relaxation.V[k]) >= 1;
   measure(mesh_.mesh(), position_.data(), state_.velocity.data(), row);
   row.hash = state_hash(state());
   return row;
+}
+
+// Signs have no way down but their own rule.
+double ReferenceMover::left_of_fall() const {
+  constexpr std::uint32_t sweeps_of_signs = 100;
+  const reference::Vector& V = last_.relaxation.V;
+  const auto components = static_cast<Eigen::Index>(mesh_.components());
+  const reference::Vector rest =
+      motion_.neuron == reference::Neuron::binary
+          ? reference::judge_signs(last_.network, order_, {last_.V0, V, 0}, sweeps_of_signs).rest
+          : reference::rest_from(reference::BlockNetwork(last_.network, components), V).V;
+  return fall_left(last_.network, last_.V0, V, rest);
 }
 
 StepState ReferenceMover::state() const {

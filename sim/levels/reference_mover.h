@@ -21,6 +21,9 @@ class ReferenceMover : public Mover {
   const reference::Step& last_step() const { return last_; }
 
  private:
+  /// Share of the last step's fall that it left.
+  double left_of_fall() const;
+
   const BuiltMesh& mesh_;
   reference::StepParameters motion_;
   std::optional<ImageForce> image_;

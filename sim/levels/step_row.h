@@ -2,6 +2,8 @@
 // of all_step_columns; the writer and the reader of the file, statistics, report and docs walk these lines.
 #pragma once
 
+#include "sim/levels/column_total.h"
+
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -17,6 +19,7 @@ struct ReferenceError {
   double energy_gap = 0;
   double network = 0;
   double alternation = 0; ///< of a step that did not come to rest: as in StepRow
+  double fall_left = 0;   ///< as in StepRow
 };
 
 struct StepRow {
@@ -28,6 +31,8 @@ struct StepRow {
   bool converged = false;
   /// Of a step that did not converge: 1 where outputs swing between two states for ever.
   double alternation = 0;
+  double input_left = 0;           ///< both: sim/levels/left_over.h
+  std::optional<double> fall_left; ///< where the reference was asked or answers itself
   std::uint64_t bus_cycles = 0, clipped = 0;
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;
@@ -39,40 +44,17 @@ struct HashFigure {
 };
 
 /// Where a row keeps the figure of a column.
-using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*, HashFigure,
-                                double ReferenceError::*>;
+using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*,
+                                std::optional<double> StepRow::*, HashFigure, double ReferenceError::*>;
 
 /// What a column is about. Statistics and report show its totals and its curve only where a run has that.
 enum class Subject {
   motion,
   relaxation, ///< of a network
+  rest,       ///< how near it came
   clock,      ///< of a simulated array
   network,    ///< as loaded into an array
   reference   ///< the array's answers against it
-};
-
-/// A figure made of a whole column. The totals of a subject are shown in this order.
-enum class Summary {
-  sum,
-  unmet, ///< of a condition: the steps in which it did not hold
-  rms,
-  median,
-  largest ///< 0 where nothing is above
-};
-
-struct Total {
-  Summary how = Summary::sum;
-  const char* key = nullptr;    ///< in stats.json; null: this is no total
-  const char* name = nullptr;   ///< in the report; null where another line there says it
-  const char* format = nullptr; ///< of its value in the report, as {fmt} has it; a count comes as "12,345"
-  double factor = 1;            ///< the report shows so many times the figure: 100 for a share in percent
-};
-
-/// A chart of the report.
-struct Curve {
-  const char* name = nullptr; ///< null: this is no curve
-  const char* unit = "";
-  double factor = 1; ///< as of a total
 };
 
 struct StepColumn {
@@ -111,6 +93,15 @@ inline constexpr StepColumn all_step_columns[] = {
     StepColumn("converged", "", "1: the threshold was met; 0: stopped by `relax.max_sweeps`",
                &StepRow::converged, Subject::relaxation, {},
                Total{Summary::unmet, "steps_stopped_by_max_sweeps", "steps stopped by max_sweeps", "{}"}),
+    StepColumn(
+        "input_left", "",
+        "largest |s| of neurons that may still move when the step ends, over the largest |I|: 0 at rest",
+        &StepRow::input_left, Subject::relaxation, Curve{"input left at the end of a step"}),
+    StepColumn("fall_left", "",
+               "what the network's energy would still fall by in double, over the step's whole fall",
+               &StepRow::fall_left, Subject::rest, Curve{"fall left at the end of a step"},
+               Total{Summary::median, "median_fall_left", "fall left by a step", "{:.2g} (median)"},
+               Total{Summary::largest, "largest_fall_left", "largest fall left", "{:.2g} of a step's"}),
     StepColumn("max_stretch", "",
                "largest length / rest length (length as built where the rest length is 0); a run ends at 10",
                &StepRow::max_stretch, Subject::motion),

@@ -47,15 +47,14 @@ Vector pull_at(const scene::Mesh& mesh, const Increment& increment) {
   return pull;
 }
 
-// The change of acceleration that the pull alone would give: before the first step nothing better is known. A
-// static step has no inertia, but the stiffest node's springs: an output there moves at least half as far as
-// this. 1/2 where nothing pulls: any scale will do.
+// What the pull alone would do to the stiffest node, held by its own weight and no neighbour: nothing better
+// is known before the first step, and an output there moves at least half as far as this. 1/2 where nothing
+// pulls: any scale will do.
 double change_by_pull(const scene::Mesh& mesh, const Increment& increment) {
   const double largest = largest_in(pull_at(mesh, increment));
   if (largest == 0) return 0.5;
-  if (!is_static(increment)) return largest / (increment.inertia * increment.h);
   const Vector still = Vector::Zero(components(mesh) * nodes_of(mesh));
-  return largest / largest_in(network(mesh, increment, 1, still).W.diagonal());
+  return largest * increment.h / largest_in(network(mesh, increment, 1, still).W.diagonal());
 }
 
 // Where the energy is a quadratic form its minimum is trusted however far it is; elsewhere a step goes no
@@ -83,25 +82,15 @@ class Relaxing {
   Relaxing(const scene::Mesh& mesh, const StepParameters& motion, const Order& order,
            const Increment& increment)
       : mesh_(mesh), motion_(motion), order_(order), increment_(increment),
-        trusted_(trusted(mesh, increment)) {}
+        trusted_(trusted(mesh, increment)),
+        finest_(std::ldexp(largest_in(increment.predicted) / increment.h, -53)) {}
 
-  // Grows the scale as often as it must, shrinks it once.
+  // Down while the outputs are small, then up while they are large: never down again, or it might go on for
+  // ever.
   void relax_in_range(Step& step) {
-    bool shrunk = false;
-    for (int growths = 0;;) {
-      relax_once(step);
-      const double largest = largest_in(step.relaxation.V);
-      double wanted = step.scale;
-      if (largest > highest_peak && 2 * step.scale <= trusted_ && growths++ < most_growths)
-        wanted = 2 * step.scale;
-      else if (largest > 0 && largest < lowest_peak && !shrunk) {
-        wanted = std::min(step.scale, scale_for(largest * step.scale));
-        shrunk = true;
-      }
-      if (wanted == step.scale) return;
-      step.relaxation.V *= step.scale / wanted;
-      step.scale = wanted;
-    }
+    relax_once(step);
+    while (rescale(step, smaller(step))) relax_once(step);
+    for (int k = 0; k < most_growths && rescale(step, larger(step)); ++k) relax_once(step);
   }
 
  private:
@@ -114,11 +103,33 @@ class Relaxing {
     step.relaxation.sweeps += before;
   }
 
+  // Words may be too coarse for anything to move at a scale; where nothing pulls, nothing should. A scale is
+  // fine enough where an output of 1 moves nobody by as much as doubles can tell.
+  double smaller(const Step& step) const {
+    const double largest = largest_in(step.relaxation.V);
+    if (!(largest < lowest_peak)) return step.scale;
+    double wanted = largest > 0 ? scale_for(largest * step.scale) : step.scale / 4;
+    if (largest == 0 && !(largest_in(step.network.I) > 0)) wanted = step.scale;
+    return wanted >= finest_ ? std::min(wanted, step.scale) : step.scale;
+  }
+
+  double larger(const Step& step) const {
+    const bool grows = largest_in(step.relaxation.V) > highest_peak && 2 * step.scale <= trusted_;
+    return grows ? 2 * step.scale : step.scale;
+  }
+
+  static bool rescale(Step& step, double scale) {
+    if (scale == step.scale) return false;
+    step.relaxation.V *= step.scale / scale;
+    step.scale = scale;
+    return true;
+  }
+
   const scene::Mesh& mesh_;
   const StepParameters& motion_;
   const Order& order_;
   const Increment& increment_;
-  const double trusted_;
+  const double trusted_, finest_;
 };
 
 // Springs and inertia less the work of the load, with `change` added to C; `size`: of its terms.

@@ -36,7 +36,7 @@ Judgement judge_answer(const BlockNetwork& network, const Order& order, const An
 Judgement judge_signs(const Network& network, const Order& order, const Answer& answer,
                       std::uint32_t most_sweeps) {
   const auto relaxed = [&](const Vector& from, std::uint32_t sweeps) {
-    return relax(network, order, from, 0, sweeps, spec::Output::binary).V;
+    return relax(network, order, from, 0, sweeps, Neuron::binary).V;
   };
   Judgement judgement;
   judgement.same_sweeps = relaxed(answer.start, answer.sweeps);

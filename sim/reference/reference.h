@@ -107,6 +107,10 @@ Relaxation relax(const Network& network, const Order& order, Vector V, double th
                  std::uint32_t max_sweeps, Neuron neuron = Neuron::modified);
 /// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
 double kkt_violation(const Network& network, const Vector& V);
+/// s of the neurons that may still move; 0 of those at a bound that s pushes against.
+Vector movable_input(const Network& network, const Vector& V);
+/// network_energy(from) - network_energy(to), with the digits that their difference loses.
+double fall(const Network& network, const Vector& from, const Vector& to);
 
 /// What one step did, for records and for `network --step`: V0 and network of the last expansion, and the
 /// rest it relaxed to; sweeps of all expansions together.

@@ -104,4 +104,16 @@ double kkt_violation(const Network& network, const Vector& V) {
   return largest;
 }
 
+Vector movable_input(const Network& network, const Vector& V) {
+  Vector s = network.W * V + network.I;
+  for (Eigen::Index k = 0; k < s.size(); ++k)
+    if ((V[k] >= 1 && s[k] > 0) || (V[k] <= -1 && s[k] < 0)) s[k] = 0;
+  return s;
+}
+
+double fall(const Network& network, const Vector& from, const Vector& to) {
+  const Vector way = to - from;
+  return way.dot(network.W * from + network.I) + way.dot(network.W * way) / 2;
+}
+
 } // namespace hopmesh::reference

@@ -155,6 +155,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
             {"neurons", mesh_.topology().neurons()},
             {"steps", rows.size()}};
   add_totals(json, Subject::relaxation, rows);
+  if (!rows.empty() && rows.front().fall_left) add_totals(json, Subject::rest, rows);
   json["neuron_updates"] = updates;
   json["wall_seconds"] = s;
   json["steps_per_second"] = a_second(rows.size());

@@ -4,6 +4,7 @@
 #include "sim/input/count_text.h"
 #include "sim/pictures/coarse_view.h"
 #include "sim/run/array_info.h"
+#include "sim/run/unrest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,8 @@ bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& ro
     return true;
   case Subject::relaxation:
     return !rows.empty() && rows.front().sweeps > 0;
+  case Subject::rest:
+    return !rows.empty() && rows.front().fall_left.has_value();
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
@@ -78,6 +81,7 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
   lines.push_back({"steps/s", fmt::format("{:.1f}", rate(rows.size()))});
   if (is_shown(Subject::relaxation, facts, rows)) {
     add_totals(Subject::relaxation, rows, lines);
+    if (is_shown(Subject::rest, facts, rows)) add_totals(Subject::rest, rows, lines);
     lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }
   if (is_shown(Subject::clock, facts, rows)) {
@@ -193,6 +197,7 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
                               facts.level->has_codes() ? ", array " + facts.inputs.array.name : "");
   view.outcome = result.sentence;
   view.good = result.outcome != Outcome::diverged;
+  view.rested = std::none_of(result.rows.begin(), result.rows.end(), is_unrested);
   view.crest = scene.mesh.grid.has_value();
   view.up = scene::axis_names[static_cast<std::size_t>(scene.mesh.up)];
   view.manifest = std::move(manifest);

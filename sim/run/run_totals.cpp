@@ -21,6 +21,9 @@ struct Value {
   template <class Number> std::optional<double> operator()(Number levels::StepRow::*member) const {
     return static_cast<double>(row.*member);
   }
+  std::optional<double> operator()(std::optional<double> levels::StepRow::*member) const {
+    return row.*member;
+  }
   std::optional<double> operator()(levels::HashFigure) const { return std::nullopt; }
   std::optional<double> operator()(double levels::ReferenceError::*member) const {
     return row.error ? std::optional((*row.error).*member) : std::nullopt;

@@ -41,6 +41,10 @@ class Cells {
     expect(cell == "0" || cell == "1", cell, "0 or 1");
     value = cell == "1";
   }
+  void read_cell(std::optional<double>& value) {
+    if (empty()) return pass_empty();
+    read_cell(value.emplace());
+  }
   void pass_empty() { expect(next().empty(), "a value", "an empty cell"); }
   void expect_end() const { expect(done_, rest_, "the end of the line"); }
 

@@ -33,10 +33,13 @@ bool is_saturated(const Rows& rows, std::size_t outputs) {
   });
 }
 
+// What ended a step does not matter: starved of sweeps, or at rest for its own words only.
+bool leaves(const levels::StepRow& r, double share) {
+  return r.fall_left && *r.fall_left > share;
+}
+
 bool stalls(const Rows& rows) {
-  return mostly(rows, [](const levels::StepRow& r) {
-    return r.converged && r.sweeps <= stall_sweeps && r.error && r.error->rms_output > stall_error;
-  });
+  return mostly(rows, [](const levels::StepRow& r) { return r.converged && leaves(r, stall_share); });
 }
 
 // Friction leaves a velocity `friction` a step, an energy its square.
@@ -54,14 +57,14 @@ bool is_over_damped(const Rows& rows, double friction) {
 } // namespace
 
 Stability classify(const Rows& rows, const StabilityFacts& facts) {
-  const auto unfinished = [](const levels::StepRow& r) { return !r.converged; };
   if (facts.diverged) return Stability::blow_up;
   if (gains_energy(rows)) return Stability::energy_gain;
   if (mostly(rows, [](const levels::StepRow& r) { return r.alternation > cycle_share; }))
     return Stability::limit_cycle;
   if (is_saturated(rows, facts.outputs)) return Stability::saturated;
   if (stalls(rows)) return Stability::lattice_stall;
-  if (mostly(rows, unfinished)) return Stability::falsely_soft;
+  if (mostly(rows, [](const levels::StepRow& r) { return leaves(r, soft_share); }))
+    return Stability::falsely_soft;
   if (is_over_damped(rows, facts.friction)) return Stability::over_damped;
   return Stability::stable;
 }

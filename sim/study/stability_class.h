@@ -11,8 +11,8 @@ enum class Stability {
   energy_gain,   ///< the energy of the last quarter is a multiple of that of the third
   limit_cycle,   ///< outputs that mostly swing between two states and never come to rest
   saturated,     ///< most outputs stand at +1 or -1
-  lattice_stall, ///< fixed point: nothing moves any more although the answer is far
-  falsely_soft,  ///< mostly ended by max_sweeps: springs give way that should not
+  lattice_stall, ///< at rest for its own words, with most of the fall left
+  falsely_soft,  ///< much of the fall left, whatever ended the steps: springs give way that should not
   over_damped    ///< the motion died, faster than friction explains
 };
 
@@ -26,10 +26,10 @@ inline const char* name_of(Stability s) {
 }
 
 /// Borders between classes; docs/use/study-files.md prints them.
-inline constexpr double gain_factor = 3; ///< of energy, from the third quarter of the steps to the last
-inline constexpr double most_of = 0.5;   ///< a share above this is "mostly"
-inline constexpr std::uint64_t stall_sweeps = 1;
-inline constexpr double stall_error = 0.05;  ///< rms of outputs against the reference
+inline constexpr double gain_factor = 3;     ///< of energy, from the third quarter of the steps to the last
+inline constexpr double most_of = 0.5;       ///< a share above this is "mostly"
+inline constexpr double stall_share = 0.9;   ///< of a step's fall, left by one that came to rest
+inline constexpr double soft_share = 0.5;    ///< of a step's fall, left by any
 inline constexpr double damped_share = 1e-3; ///< of the largest kinetic energy that friction would leave
 inline constexpr double cycle_share = 0.5;   ///< of a swing that is still there after 20 sweeps
 inline constexpr std::size_t least_rows = 8; ///< fewer say nothing of energy

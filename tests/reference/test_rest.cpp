@@ -136,5 +136,23 @@ TEST(Rest, OfNothingIsNothing) {
   EXPECT_TRUE(rest_of({Matrix(0, 0), Vector(0)}, Vector(0)).found);
 }
 
+TEST(ReferenceRest, OnlyNeuronsThatMayMoveCountAsLeft) {
+  const Network net = network_of(Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(3, -5));
+  EXPECT_EQ(movable_input(net, Eigen::Vector2d(0, 0)), Eigen::Vector2d(3, -5));
+  EXPECT_EQ(movable_input(net, Eigen::Vector2d(1, 1)), Eigen::Vector2d(0, -5));
+  EXPECT_EQ(movable_input(net, Eigen::Vector2d(1, -1)), Eigen::Vector2d(0, 0));
+}
+
+TEST(ReferenceRest, FallIsTheDifferenceOfTwoEnergies) {
+  // E = V^2 - I V: the rest is I / 2, or the bound.
+  for (const double I : {-3.0, -1.0, 0.0, 0.5, 2.0, 7.0}) {
+    const Network net = network_of(Eigen::MatrixXd::Constant(1, 1, -2), Vector::Constant(1, I));
+    const double rest = std::clamp(I / 2, -1.0, 1.0), V = 0.25;
+    EXPECT_NEAR(rest_of(net, Vector::Constant(1, V)).V[0], rest, 1e-14);
+    const double wanted = (V * V - I * V) - (rest * rest - I * rest);
+    EXPECT_NEAR(fall(net, Vector::Constant(1, V), Vector::Constant(1, rest)), wanted, 1e-15);
+  }
+}
+
 } // namespace
 } // namespace hopmesh::tests

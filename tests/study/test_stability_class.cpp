@@ -37,16 +37,24 @@ TEST(StabilityClass, EnergyGainIsAMultipleOfTheThirdQuarter) {
   EXPECT_EQ(classify(rows, plain), Stability::stable);
 }
 
-TEST(StabilityClass, UnfinishedIsFalselySoftOrALimitCycleWhereItSwings) {
+TEST(StabilityClass, UnfinishedIsALimitCycleWhereItSwings) {
   auto rows = swing();
-  for (std::size_t k = 0; k < 20; ++k) rows[k].converged = false;
-  EXPECT_EQ(classify(rows, plain), Stability::stable) << "half is not most";
-  rows[20].converged = false;
-  EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
-  for (levels::StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share + 0.01;
+  for (levels::StepRow& row : rows) row.converged = false, row.alternation = cycle_share + 0.01;
   EXPECT_EQ(classify(rows, plain), Stability::limit_cycle);
-  for (levels::StepRow& row : rows) row.alternation = row.converged ? 0 : cycle_share - 0.01;
-  EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
+  for (levels::StepRow& row : rows) row.alternation = cycle_share - 0.01;
+  EXPECT_EQ(classify(rows, plain), Stability::stable);
+}
+
+TEST(StabilityClass, MuchOfTheFallLeftIsFalselySoftWhateverEndedTheSteps) {
+  for (const bool converged : {false, true}) {
+    auto rows = swing();
+    for (std::size_t k = 0; k < 20; ++k) rows[k].converged = converged, rows[k].fall_left = soft_share * 1.1;
+    EXPECT_EQ(classify(rows, plain), Stability::stable) << "half is not most";
+    rows[20].fall_left = soft_share * 1.1;
+    EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
+    for (levels::StepRow& row : rows) row.fall_left = soft_share * 0.9, row.converged = converged;
+    EXPECT_EQ(classify(rows, plain), Stability::stable);
+  }
 }
 
 TEST(StabilityClass, SaturatedIsMostOutputsInMostSteps) {
@@ -57,13 +65,14 @@ TEST(StabilityClass, SaturatedIsMostOutputsInMostSteps) {
   EXPECT_EQ(classify(rows, plain), Stability::saturated);
 }
 
-TEST(StabilityClass, ALatticeStallRestsAtOnceAndIsWrong) {
+TEST(StabilityClass, ALatticeStallRestsWithMostOfTheFallLeft) {
   auto rows = swing();
-  for (levels::StepRow& row : rows)
-    row.sweeps = stall_sweeps, row.error.emplace().rms_output = stall_error * 1.1;
+  for (levels::StepRow& row : rows) row.fall_left = stall_share * 1.1;
   EXPECT_EQ(classify(rows, plain), Stability::lattice_stall);
-  for (levels::StepRow& row : rows) row.error->rms_output = stall_error * 0.9;
-  EXPECT_EQ(classify(rows, plain), Stability::stable) << "at rest, and rightly so";
+  for (levels::StepRow& row : rows) row.converged = false;
+  EXPECT_EQ(classify(rows, plain), Stability::falsely_soft) << "starved, not stalled";
+  for (levels::StepRow& row : rows) row.converged = true, row.fall_left = stall_share * 0.9;
+  EXPECT_EQ(classify(rows, plain), Stability::falsely_soft);
 }
 
 TEST(StabilityClass, OverDampedDiesFasterThanFrictionExplains) {

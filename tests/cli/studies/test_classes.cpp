@@ -66,6 +66,27 @@ TEST_F(CliClass, LatticeStallIsAStepShorterThanAPlace) {
   EXPECT_EQ(class_of("chain", "engine", chain(8)), "stable");
 }
 
+// At the scale that a step begins with, such words have no place small enough to move by: it must be sought
+// until something moves, or the springs are never felt and the cloth flies off, in one sweep a step.
+TEST_F(CliClass, CoarseWordsFeelTheSprings) {
+  const struct {
+    int k;
+    double time_step;
+    int bits;
+  } cases[] = {{100, 0.016, 8}, {100, 0.008, 6}, {1000, 0.016, 8}};
+  for (const auto& c : cases) {
+    std::string line = fmt::format("run banner --array descent --steps 20 --out r --set motion.time_step={} "
+                                   "--set mesh.springs.structural={} --set mesh.springs.shear={}",
+                                   c.time_step, c.k / 2, c.k / 2);
+    for (const char* part : {"drive", "state", "link"})
+      line += fmt::format(" --set 'formats.{}=fixed<{},2,SC_TRN_ZERO,SC_SAT>'", part, c.bits);
+    good(line + fmt::format(" --set 'formats.weight=fixed<{},1,SC_RND,SC_SAT>'", c.bits));
+    const auto stats = read_json(at("r") / "stats.json");
+    EXPECT_EQ(stats["outcome"], "finished") << line;
+    EXPECT_GT(stats["sweeps"], 2 * 20) << line;
+  }
+}
+
 // No length of rest, no unit-length term: each output heads for its bound, as the answer lies further than a
 // step reaches.
 TEST_F(CliClass, SaturatedIsAnAnswerOutOfReach) {

@@ -1,0 +1,30 @@
+// What is made of a column of steps.csv as a whole: figures for stats.json and the report, and a curve.
+#pragma once
+
+namespace hopmesh::levels {
+
+/// A figure made of a whole column. The totals of a subject are shown in this order.
+enum class Summary {
+  sum,
+  unmet, ///< of a condition: the steps in which it did not hold
+  rms,
+  median,
+  largest ///< 0 where nothing is above
+};
+
+struct Total {
+  Summary how = Summary::sum;
+  const char* key = nullptr;    ///< in stats.json; null: this is no total
+  const char* name = nullptr;   ///< in the report; null where another line there says it
+  const char* format = nullptr; ///< of its value in the report, as {fmt} has it; a count comes as "12,345"
+  double factor = 1;            ///< the report shows so many times the figure: 100 for a share in percent
+};
+
+/// A chart of the report.
+struct Curve {
+  const char* name = nullptr; ///< null: this is no curve
+  const char* unit = "";
+  double factor = 1; ///< as of a total
+};
+
+} // namespace hopmesh::levels

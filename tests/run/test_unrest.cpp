@@ -1,0 +1,48 @@
+// Steps that did not come to rest are told in the sentence of a run.
+#include "sim/run/unrest.h"
+
+#include <gtest/gtest.h>
+
+namespace hopmesh::tests {
+namespace {
+
+run::StepRows rested(std::size_t steps) {
+  run::StepRows rows(steps);
+  for (levels::StepRow& row : rows) row.sweeps = 5, row.converged = true;
+  return rows;
+}
+
+TEST(Unrest, IsNotTalkedOfWhereThereIsNone) {
+  EXPECT_EQ(run::unrest_text({}), "");
+  EXPECT_EQ(run::unrest_text(rested(3)), "");
+  run::StepRows rivals(3); // no sweeps: nothing that could come to rest
+  EXPECT_EQ(run::unrest_text(rivals), "");
+}
+
+TEST(Unrest, NamesStepsThatRanOutOfSweeps) {
+  auto rows = rested(4);
+  rows[1].converged = rows[3].converged = false;
+  EXPECT_EQ(run::unrest_text(rows), "2 of 4 steps did not come to rest: 2 stopped by max_sweeps.");
+  EXPECT_TRUE(run::is_unrested(rows[1]));
+  EXPECT_FALSE(run::is_unrested(rows[0]));
+}
+
+TEST(Unrest, NamesStepsThatCallThemselvesAtRestAndAreNot) {
+  auto rows = rested(4);
+  for (levels::StepRow& row : rows) row.fall_left = run::most_fall_left / 2, row.input_left = 1;
+  EXPECT_EQ(run::unrest_text(rows), "") << "the fall is known, so the input says nothing";
+  rows[2].fall_left = 0.33;
+  EXPECT_EQ(run::unrest_text(rows), "1 of 4 steps did not come to rest: 1 left up to 33 % of their fall.");
+  rows[2].converged = false;
+  EXPECT_EQ(run::unrest_text(rows),
+            "1 of 4 steps did not come to rest: 1 stopped by max_sweeps, 1 left up to 33 % of their fall.");
+}
+
+TEST(Unrest, IsNotGuessedFromTheInput) {
+  auto rows = rested(2);
+  rows[0].input_left = 0.9;
+  EXPECT_EQ(run::unrest_text(rows), "");
+}
+
+} // namespace
+} // namespace hopmesh::tests
