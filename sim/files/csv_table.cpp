@@ -121,7 +121,8 @@ CsvTable parse_checked_csv(std::string_view text, const std::string& path,
   std::vector<std::string> header = columns;
   header.emplace_back("check");
   Rows rows(text, path);
-  if (rows.next() != header) throw rows.error("", "other columns", fmt::format("{}", fmt::join(header, ",")));
+  if (rows.next() != header)
+    throw rows.error("", "other columns", input::in_quotes(fmt::format("{}", fmt::join(header, ","))));
   while (rows.more()) {
     table.rows.push_back(next_of(rows, header.size()));
     expect_check(rows);

@@ -182,7 +182,7 @@ class Pool {
   void take(std::size_t number, const ChildEnd& end) {
     if (end.exit_code == child_refused) throw Refused(end.message);
     if (end.from_outside() && tried_again_.insert(number).second)
-      waiting_.push_back(number);
+      waiting_.push_front(number);
     else
       ended_(number, end);
   }

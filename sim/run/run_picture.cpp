@@ -160,7 +160,9 @@ StepRows rows_drawn(const StepRows& rows) {
 pictures::RunView report_view(pictures::RunView view) {
   if (view.nodes <= most_report_nodes) return view;
   const std::size_t nodes = view.nodes;
-  view = pictures::light_view(view, std::sqrt(static_cast<double>(most_report_nodes)));
+  const double cubes =
+      std::floor(std::sqrt(static_cast<double>(most_report_nodes))) - 1; // of a surface's side
+  view = pictures::light_view(view, cubes);
   view.subtitle +=
       fmt::format("; its {} nodes are drawn as {}", input::grouped(nodes), input::grouped(view.nodes));
   return view;

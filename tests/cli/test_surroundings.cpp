@@ -54,11 +54,14 @@ TEST_F(CliSurroundings, ATerminalThatIsGoneLosesNoRun) {
   EXPECT_EQ(run.finish().exit_code, 130);
   EXPECT_TRUE(std::filesystem::exists(at("r") / "checkpoint"));
   around.terminal = false;
-  EXPECT_EQ(hopmesh("run --resume r --steps 20").exit_code, 0);
+  EXPECT_EQ(hopmesh("run --resume r").exit_code, 0);
 }
 
 TEST_F(CliSurroundings, ASighupThatIsIgnoredStaysSo) {
-  const Finished f = shell("trap '' HUP; kill -HUP $$; sh -c 'kill -HUP $PPID'; ", checkpoints + "r");
+  const Finished f = run_shell("trap '' HUP; " HOPMESH_PROGRAM
+                               " run flag-225 --level systemc --no-check --steps 20 --out r & "
+                               "p=$!; sleep 0.3; kill -HUP $p; wait $p",
+                               around);
   EXPECT_EQ(f.exit_code, 0) << f.err;
 }
 
@@ -89,6 +92,7 @@ TEST_F(CliSurroundings, AFolderMayBeCalledAnything) {
   EXPECT_EQ(run_program({"run", "two-nodes", "--steps", "2", "--out", odd}, around).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(at(odd) / "manifest.json"));
   EXPECT_TRUE(std::filesystem::create_directory(at("d\xff")));
+  write_text(at("two.obj"), "v 0 0 0\nv 1 0 0\nl 1 2\n");
   const Finished f = run_shell("cd 'd\xff' && cp ../two.obj . && " HOPMESH_PROGRAM
                                " run two-nodes --set mesh.file=two.obj --out ../q",
                                around);

@@ -70,7 +70,7 @@ TEST_F(KeptFile, TheSentenceHasPlaceAndWayOut) {
 
 TEST_F(KeptFile, OtherColumnsAreTold) {
   EXPECT_THAT(fault_of("name,other\n"),
-              HasSubstr("kept.csv:1: found other columns, expected name,value,check"));
+              HasSubstr("kept.csv:1: found other columns, expected \"name,value,check\""));
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "place.h"
 
 #include <csignal>
+#include <cstdlib>
 
 namespace hopmesh::tests {
 namespace {
