@@ -3,7 +3,7 @@
 #include "sim/cli/options.h"
 #include "sim/cli/usage.h"
 #include "sim/cli/verbs.h"
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 #include "sim/run/children.h"
 #include "sim/run/write_error.h"
 #include "version.h"
@@ -26,7 +26,7 @@ std::string one_line(std::string text) {
 
 /// A line on stderr, and the exit code of what cannot be done.
 int told(const std::string& line) {
-  files::say("hopmesh: " + one_line(line) + '\n');
+  input::say("hopmesh: " + one_line(line) + '\n');
   return cli::bad_input;
 }
 
@@ -57,13 +57,13 @@ int program(int argc, char** argv) {
 /// The program, and what it printed has arrived.
 int whole_program(int argc, char** argv) {
   const int exit_code = program(argc, argv);
-  files::finish_stdout();
+  input::finish_stdout();
   return exit_code;
 }
 
 /// What the system refuses (a process, a thread, a folder, a place for what is printed) is no defect of ours.
 int told_refusal(const std::system_error& e) {
-  return told(files::stdout_failed() ? "stdout: " + e.code().message() : e.what());
+  return told(input::stdout_failed() ? "stdout: " + e.code().message() : e.what());
 }
 
 // What is left in the end is a defect: told in a line as well, and never taken for bad input.
@@ -94,7 +94,7 @@ int sc_main(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
-  files::open_standard_streams();
+  input::open_standard_streams();
   setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   return sc_core::sc_elab_and_sim(argc, argv);
 }

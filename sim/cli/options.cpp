@@ -1,6 +1,6 @@
 #include "sim/cli/options.h"
 
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void add_common(CLI::App& verb, input::InputWords& words) {
 }
 
 void tell(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) files::say(fmt::format("hopmesh: note: {}\n", note));
+  for (const std::string& note : notes) input::say(fmt::format("hopmesh: note: {}\n", note));
 }
 
 levels::Prepared prepare(const input::InputWords& words) {

@@ -46,7 +46,8 @@ double input_left(const reference::Network& network, const Vector& V) {
   return whole > 0 ? reference::movable_input(network, V).cwiseAbs().maxCoeff() / whole : 0;
 }
 
-double fall_left(const reference::Network& network, const Vector& start, const Vector& V, const Vector& rest) {
+double fall_left(const reference::Network& network, const Vector& start, const Vector& V,
+                 const Vector& rest) {
   const Vector none = Vector::Zero(V.size());
   const double whole =
       std::max(reference::fall(network, start, rest), least_part * reference::fall(network, none, rest));

@@ -1,8 +1,8 @@
 #include "sim/levels/level.h"
 
 #include "sim/engine/choose.h"
-#include "sim/files/standard_streams.h"
 #include "sim/input/input_error.h"
+#include "sim/input/standard_streams.h"
 #include "sim/levels/engine_port.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/reference_mover.h"
@@ -31,7 +31,7 @@ std::unique_ptr<ArrayPort> make_engine_port(const spec::ArraySpec& array, const 
   auto port = std::make_unique<EnginePort>(array, topology, options, request.wave, stop_requested);
   const std::string why = port->engine().why_no_kernel();
   if (!why.empty() && request.remarks)
-    files::say(
+    input::say(
         fmt::format("hopmesh: engine: no fast kernel for {}; the generic path computes this array\n", why));
   return port;
 }

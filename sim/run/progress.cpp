@@ -1,6 +1,6 @@
 #include "sim/run/progress.h"
 
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 #include "sim/levels/interrupt.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ Progress::Progress(std::uint64_t steps, std::uint64_t before)
     : steps_(steps), before_(before), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
 
 Progress::~Progress() {
-  if (shown_) files::say("\r\033[K");
+  if (shown_) input::say("\r\033[K");
 }
 
 void Progress::step(const levels::StepRow& row, const levels::Mover&) {
@@ -29,7 +29,7 @@ void Progress::step(const levels::StepRow& row) {
 }
 
 void Progress::say(const std::string& line) {
-  files::say(fmt::format("{}{}\n", shown_ ? "\r\033[K" : "", line));
+  input::say(fmt::format("{}{}\n", shown_ ? "\r\033[K" : "", line));
   drawn_ = {};
 }
 
@@ -39,7 +39,7 @@ void Progress::draw(const levels::StepRow& row, Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - began_).count();
   const double left = seconds / static_cast<double>(done - before_) * static_cast<double>(steps_ - done);
   const std::size_t full = width * done / steps_;
-  files::say(fmt::format("\r\033[K[{:=<{}}{:<{}}] step {} of {}, {} sweeps, strain {:.0f} %, {:.0f} s left",
+  input::say(fmt::format("\r\033[K[{:=<{}}{:<{}}] step {} of {}, {} sweeps, strain {:.0f} %, {:.0f} s left",
                          "", full, "", width - full, done, steps_, row.sweeps, 100 * row.max_strain, left));
 }
 
@@ -53,7 +53,7 @@ CountProgress::CountProgress(const char* what, std::uint64_t total)
     : what_(what), total_(total), shown_(isatty(STDERR_FILENO)), began_(Clock::now()) {}
 
 CountProgress::~CountProgress() {
-  if (shown_) files::say("\r\033[K");
+  if (shown_) input::say("\r\033[K");
 }
 
 void CountProgress::count(std::uint64_t done) {
@@ -66,7 +66,7 @@ void CountProgress::count(std::uint64_t done) {
                                  total_ > 0 ? fmt::format(" of {}", total_) : "", what_, seconds, rate);
   if (total_ > done && rate > 0)
     line += fmt::format(", {:.0f} s left", static_cast<double>(total_ - done) / rate);
-  files::say(line);
+  input::say(line);
 }
 
 } // namespace hopmesh::run

@@ -1,7 +1,7 @@
 #include "sim/run/simulation.h"
 
-#include <algorithm>
 #include "sim/run/unrest.h"
+#include <algorithm>
 
 #include <chrono>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "sim/study/slurm.h"
 
 #include "sim/files/output_file.h"
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 #include "sim/input/command_words.h"
 #include "sim/input/input_error.h"
 
@@ -53,7 +53,7 @@ void run_by_slurm(const std::string& line, std::size_t tasks, const fs::path& fo
   std::fflush(nullptr);
   const int status = std::system(command.c_str());
   if (status != 0)
-    files::say(fmt::format("hopmesh: sbatch, or a task of its, {}; see task-*.log in {}\n", in_words(status),
+    input::say(fmt::format("hopmesh: sbatch, or a task of its, {}; see task-*.log in {}\n", in_words(status),
                            where));
 }
 

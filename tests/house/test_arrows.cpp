@@ -36,7 +36,7 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/study",
      {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/levels", "sim/run"}},
     {"sim/cli",
-     {"sim/input", "sim/scene", "sim/files/standard_streams.h", "sim/levels", "sim/run", "sim/cosim",
+     {"sim/input", "sim/scene", "sim/input/standard_streams.h", "sim/levels", "sim/run", "sim/cosim",
       "sim/networks", "sim/study"}},
 };
 

@@ -1,6 +1,6 @@
 // hopmesh run: one simulation, its files and its figures.
 #include "sim/cli/options.h"
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 #include "sim/levels/interrupt.h"
 #include "sim/run/flight.h"
 
@@ -69,7 +69,7 @@ int run(const RunOptions& o) {
   fmt::print("{}", flight.text_of(result));
   const std::string trouble = flight.trouble();
   if (trouble.empty()) return exit_of(result.outcome);
-  files::say(fmt::format("hopmesh: {}\n", trouble));
+  input::say(fmt::format("hopmesh: {}\n", trouble));
   return bad_input;
 }
 

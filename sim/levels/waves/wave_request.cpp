@@ -1,7 +1,7 @@
 #include "sim/levels/waves/wave_request.h"
 
 #include "sim/files/output_file.h"
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 #include "sim/input/input_error.h"
 #include "sim/input/number.h"
 #include "sim/scene/limits.h"
@@ -68,7 +68,7 @@ std::string early_end_text(const WaveRequest& request) {
 }
 
 void warn_empty_window(const WaveRequest& request) {
-  files::say(fmt::format("hopmesh: {}: no wave, the run ended before the window began\n", request.file));
+  input::say(fmt::format("hopmesh: {}: no wave, the run ended before the window began\n", request.file));
 }
 
 } // namespace hopmesh::levels

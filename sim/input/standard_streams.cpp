@@ -1,17 +1,14 @@
-#include "sim/files/standard_streams.h"
-
-#include "sim/files/output_file.h"
+#include "sim/input/standard_streams.h"
 
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <iostream>
+#include <system_error>
 #include <unistd.h>
 
-namespace hopmesh::files {
+namespace hopmesh::input {
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -34,8 +31,7 @@ void finish_stdout() {
   std::cout.flush();
   const bool failed = std::fflush(stdout) != 0;
   const int reason = failed ? errno : EIO;
-  if (failed || stdout_failed())
-    throw WriteError(fmt::format("stdout: cannot write: {}", std::strerror(reason)));
+  if (failed || stdout_failed()) throw std::system_error(reason, std::generic_category(), "stdout");
 }
 
-} // namespace hopmesh::files
+} // namespace hopmesh::input

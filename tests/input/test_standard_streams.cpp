@@ -1,6 +1,6 @@
 // Descriptors 0 to 2 that are closed or full, each in a process of its own.
 #include "sim/files/output_file.h"
-#include "sim/files/standard_streams.h"
+#include "sim/input/standard_streams.h"
 
 #include <cstdio>
 #include <fcntl.h>
@@ -30,7 +30,7 @@ void put_in_place(const char* file, int stream) {
 TEST(StandardStreams, ClosedOnesAreTaken) {
   EXPECT_EQ(exit_of([] {
               close(0), close(1), close(2);
-              files::open_standard_streams();
+              input::open_standard_streams();
               return open("/dev/null", O_RDONLY); // the first that is free
             }),
             3);
@@ -39,7 +39,7 @@ TEST(StandardStreams, ClosedOnesAreTaken) {
 TEST(StandardStreams, OpenOnesStay) {
   EXPECT_EQ(exit_of([] {
               put_in_place("/dev/full", 1);
-              files::open_standard_streams();
+              input::open_standard_streams();
               return write(1, "x", 1) < 0 ? 7 : 0;
             }),
             7);
@@ -48,7 +48,7 @@ TEST(StandardStreams, OpenOnesStay) {
 TEST(StandardStreams, SayingIntoAFullStderrIsNoFault) {
   EXPECT_EQ(exit_of([] {
               put_in_place("/dev/full", 2);
-              files::say("nobody reads this\n");
+              input::say("nobody reads this\n");
               return 5;
             }),
             5);
@@ -59,8 +59,8 @@ TEST(StandardStreams, WhatWasPrintedAndLostIsTold) {
               put_in_place("/dev/full", 1);
               std::fputs("lost\n", stdout);
               try {
-                files::finish_stdout();
-              } catch (const files::WriteError&) {
+                input::finish_stdout();
+              } catch (const std::system_error&) {
                 return 9;
               }
               return 0;
