@@ -1,8 +1,8 @@
 #include "sim/run/simulation.h"
 
 #include "sim/run/unrest.h"
-#include <algorithm>
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 

@@ -1,5 +1,4 @@
 // Descriptors 0 to 2 that are closed or full, each in a process of its own.
-#include "sim/files/output_file.h"
 #include "sim/input/standard_streams.h"
 
 #include <cstdio>
