@@ -19,10 +19,6 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const Eigen::VectorXd& V) {
 }
 
 /// + 0.0: an energy of nothing has no sign.
-double energy_of(const GivenNetwork& network, const reference::Vector& V) {
-  return reference::network_energy(network.network(), V) + 0.0;
-}
-
 } // namespace
 
 Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
