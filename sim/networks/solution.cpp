@@ -18,7 +18,6 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const Eigen::VectorXd& V) {
   return 0;
 }
 
-/// + 0.0: an energy of nothing has no sign.
 } // namespace
 
 Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {

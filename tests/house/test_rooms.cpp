@@ -20,8 +20,9 @@ TEST(Rooms, holdAtMostTwentySources) {
 // A verb is flags, a footer and a short callback; what it does is a room's below.
 TEST(Rooms, haveShortVerbs) {
   for (const TreeFile& file : tree_files({".h", ".cpp"}))
-    if (starts_with(file.path, "sim/cli/"))
+    if (starts_with(file.path, "sim/cli/")) {
       EXPECT_LT(lines_of(file.text).size(), 150u) << file.path << " wants to be a room's below";
+    }
 }
 
 /// Whether a letter put in, left out or changed makes one word of the other.

@@ -37,7 +37,8 @@ class GivenNetwork {
   std::size_t weights() const { return static_cast<std::size_t>(network_.W.nonZeros()); }
 
   /// Of outputs V: -1/2 V'WV - I'V, and how far a step of s_i / N_i can still move one of them.
-  double energy(const Eigen::VectorXd& V) const { return reference::network_energy(network_, V); }
+  /// + 0.0: an energy of nothing has no sign.
+  double energy(const Eigen::VectorXd& V) const { return reference::network_energy(network_, V) + 0.0; }
   double kkt_violation(const Eigen::VectorXd& V) const { return reference::kkt_violation(network_, V); }
 
   /// The network that weights in the memory's layout and biases are.
