@@ -30,7 +30,7 @@ TEST(StandardStreams, ClosedOnesAreTaken) {
   EXPECT_EQ(exit_of([] {
               close(0), close(1), close(2);
               input::open_standard_streams();
-              return open("/dev/null", O_RDONLY); // the first that is free
+              return (fcntl(0, F_GETFD) >= 0) + (fcntl(1, F_GETFD) >= 0) + (fcntl(2, F_GETFD) >= 0);
             }),
             3);
 }
