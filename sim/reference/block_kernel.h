@@ -44,7 +44,7 @@ struct BlockKernel {
   const char* name;
   /// s = W V + bias, all [nodes].
   void (*inputs)(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s);
-  /// Fires the neurons of the nodes named, node by node and within a node one after the other.
+  /// Fires the neurons of the nodes named, which share no weight, component by component.
   void (*sweep)(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
                 Quad* V);
 

@@ -54,23 +54,34 @@ inline double fired(double s, double share, double V) {
   return V + (u - V * __builtin_fabs(u));
 }
 
-// What the node's later neurons bring is added before it is known what the earlier ones came to: a neuron
-// waits for the one before it, and the less there is left to do then, the better.
+/// Nodes whose inputs are summed before the first of them fires: what a node's neurons wait for each other,
+/// the other nodes fill.
+constexpr std::size_t batch = 32;
+
+template <std::size_t n>
+void fire_batch(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
+                Quad* V) {
+  Four sums[batch];
+  for (std::size_t k = 0; k < count; ++k) {
+    sums[k] = fours(bias)[node[k]];
+    add_sources<n>(rows, node[k], V, sums[k]);
+  }
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = node[k];
+      double* const v = V[at].lane;
+      const Quad* const own = rows.own + n * at;
+      double s = sums[k][p];
+      for (std::size_t q = 0; q < n; ++q) s += own[q].lane[p] * v[q];
+      v[p] = fired(s, rows.share[at].lane[p], v[p]);
+    }
+}
+
 template <std::size_t n>
 void sweep_over(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
                 Quad* V) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t at = node[k];
-    Four sum = fours(bias)[at];
-    add_sources<n>(rows, at, V, sum);
-    double* const v = V[at].lane;
-    const Quad *const own = rows.own + n * at, &share = rows.share[at];
-    for (std::size_t p = 0; p < n; ++p) {
-      double s = sum[p];
-      for (std::size_t q = n; q-- > 0;) s += own[q].lane[p] * v[q];
-      v[p] = fired(s, share.lane[p], v[p]);
-    }
-  }
+  for (; count > batch; node += batch, count -= batch) fire_batch<n>(rows, bias, node, batch, V);
+  fire_batch<n>(rows, bias, node, count, V);
 }
 
 void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {

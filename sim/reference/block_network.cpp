@@ -87,9 +87,9 @@ void BlockNetwork::inputs(const Quads& bias, const Quads& V, Quads& s) const {
 }
 
 // Phases from this one on that fire all neurons of some nodes, component by component, where the nodes share
-// no weight: then it is all the same to go node by node.
-bool BlockNetwork::one_by_one(const Order& order, std::size_t phase,
-                              std::vector<std::uint32_t>& nodes) const {
+// no weight: then each phase need not read all it needs before it writes.
+bool BlockNetwork::share_nothing(const Order& order, std::size_t phase,
+                                 std::vector<std::uint32_t>& nodes) const {
   const auto n = static_cast<std::uint32_t>(components_);
   if (phase + n > order.size()) return false;
   for (std::uint32_t p = 0; p < n; ++p)
@@ -112,12 +112,11 @@ std::vector<BlockNetwork::Stretch> BlockNetwork::stretches(const Order& order) c
   std::vector<Stretch> all;
   for (std::size_t phase = 0; phase < order.size();) {
     std::vector<std::uint32_t> nodes;
-    if (!one_by_one(order, phase, nodes)) {
+    if (!share_nothing(order, phase, nodes)) {
       all.push_back({{}, &order[phase++]});
       continue;
     }
-    if (all.empty() || all.back().together) all.emplace_back();
-    all.back().nodes.insert(all.back().nodes.end(), nodes.begin(), nodes.end());
+    all.push_back({std::move(nodes), nullptr});
     phase += components_;
   }
   return all;

@@ -33,8 +33,8 @@ class BlockNetwork {
   Vector swept(const Order& order, const Vector& V, std::uint32_t sweeps) const;
 
  private:
-  /// Some of an order's phases: nodes that the kernel walks one by one, or a phase whose neurons all read
-  /// before any is written.
+  /// Some of an order's phases: those of nodes that share no weight, or a phase whose neurons all read before
+  /// any is written.
   struct Stretch {
     std::vector<std::uint32_t> nodes;
     const std::vector<std::uint32_t>* together = nullptr;
@@ -43,7 +43,7 @@ class BlockNetwork {
   void add_row(const Network& network, std::size_t node, std::size_t p);
   std::size_t block_of(std::uint32_t source);
   BlockRows rows() const;
-  bool one_by_one(const Order& order, std::size_t phase, std::vector<std::uint32_t>& nodes) const;
+  bool share_nothing(const Order& order, std::size_t phase, std::vector<std::uint32_t>& nodes) const;
   std::vector<Stretch> stretches(const Order& order) const;
   void fire_together(const std::vector<std::uint32_t>& phase, Quads& V, Quads& s) const;
 
