@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "place.h"
 
@@ -108,9 +109,8 @@ TEST_F(ForeignFiles, ARingOfConstantTensionCollapsesAndStays) {
            level);
       const std::vector<double> energy = read_table(at(level + "/steps.csv")).numbers("energy");
       ASSERT_EQ(energy.size(), 120u) << level << ' ' << rule;
-      if (rule == "backward_euler")
-        for (std::size_t k = 1; k < energy.size(); ++k)
-          ASSERT_LE(energy[k], energy[k - 1] * (1 + 1e-9)) << level << ", step " << k;
+      for (std::size_t k = 1; k < energy.size() && rule == "backward_euler"; ++k)
+        ASSERT_LE(energy[k], energy[k - 1] * (1 + 1e-9)) << level << ", step " << k;
       EXPECT_LT(energy.back(), 0.25) << level << ' ' << rule;
     }
 }
@@ -133,11 +133,12 @@ TEST_P(MeshesOfOthers, Run) {
                                "[force]\ngravity = [0.0, -9.81, 0.0]\n");
   const Finished f = good("run s.toml --out out");
   EXPECT_THAT(f.out, HasSubstr("All 3 steps done"));
-  if (GetParam() == std::string("stanford-bunny.obj"))
-    EXPECT_THAT(f.err, HasSubstr("1,113 vertices in no face or line"));
-  if (GetParam() == std::string("teapot.obj")) EXPECT_THAT(f.err, HasSubstr("4 parts that no spring joins"));
-  if (GetParam() == std::string("suzanne.obj")) EXPECT_THAT(f.err, HasSubstr("3 parts that no spring joins"));
-  if (GetParam() == std::string("spot.obj")) EXPECT_EQ(f.err, "");
+  static const std::map<std::string, std::string> told{
+      {"stanford-bunny.obj", "1,113 vertices in no face or line"},
+      {"teapot.obj", "4 parts that no spring joins"},
+      {"suzanne.obj", "3 parts that no spring joins"},
+      {"spot.obj", ""}};
+  EXPECT_THAT(f.err, HasSubstr(told.at(GetParam())));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheCollection, MeshesOfOthers,
