@@ -57,7 +57,8 @@ TEST_F(KeptFile, WhatIsCutIsFound) {
   for (std::size_t k = 0; k + 1 < whole.size(); ++k) {
     const std::size_t header = whole.find('\n');
     const bool between_rows = k == header || k == header + 1 || k == second - 1 || k == second;
-    if (!between_rows) EXPECT_NE(fault_of(whole.substr(0, k)), "") << k;
+    if (between_rows) continue;
+    EXPECT_NE(fault_of(whole.substr(0, k)), "") << k;
   }
 }
 

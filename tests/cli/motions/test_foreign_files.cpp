@@ -109,8 +109,9 @@ TEST_F(ForeignFiles, ARingOfConstantTensionCollapsesAndStays) {
            level);
       const std::vector<double> energy = read_table(at(level + "/steps.csv")).numbers("energy");
       ASSERT_EQ(energy.size(), 120u) << level << ' ' << rule;
-      for (std::size_t k = 1; k < energy.size() && rule == "backward_euler"; ++k)
+      for (std::size_t k = 1; k < energy.size() && rule == "backward_euler"; ++k) {
         ASSERT_LE(energy[k], energy[k - 1] * (1 + 1e-9)) << level << ", step " << k;
+      }
       EXPECT_LT(energy.back(), 0.25) << level << ' ' << rule;
     }
 }
