@@ -88,8 +88,8 @@ void put_motion(files::OutputFile& file, const RunView& view) {
 
 nlohmann::json words_of(const RunView& view) {
   nlohmann::json run{{"title", view.title}, {"subtitle", view.subtitle}, {"outcome", view.outcome},
-                     {"good", view.good},   {"manifest", view.manifest}, {"up", view.up},
-                     {"nodes", view.nodes}};
+                     {"good", view.good},   {"rested", view.rested},     {"manifest", view.manifest},
+                     {"up", view.up},       {"nodes", view.nodes}};
   run["pinned"] = nlohmann::json::array();
   for (std::size_t n = 0; n < view.pinned.size(); ++n)
     if (view.pinned[n]) run["pinned"].push_back(n);

@@ -36,6 +36,7 @@ struct RunView {
   std::string subtitle; ///< one line: level, steps, array
   std::string outcome;  ///< one sentence: done, interrupted or diverged, and why
   bool good = true;     ///< false: diverged
+  bool rested = true;   ///< false: steps stopped before they came to rest
   std::size_t nodes = 0;
   std::vector<bool> pinned;
   std::vector<std::array<ViewCorner, 3>> triangles;

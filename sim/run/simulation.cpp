@@ -1,5 +1,7 @@
 #include "sim/run/simulation.h"
 
+#include "sim/run/unrest.h"
+
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
@@ -62,6 +64,7 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
   if (result.outcome == Outcome::interrupted)
     result.sentence = fmt::format("Interrupted after {} of {} steps; their results are complete.",
                                   result.rows.size(), steps);
+  if (const std::string unrest = unrest_text(result.rows); !unrest.empty()) result.sentence += " " + unrest;
   result.wall_seconds += std::chrono::duration<double>(Clock::now() - began).count();
   return result;
 }

@@ -21,6 +21,10 @@ struct Methods {
   std::function<Truth(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                       const std::vector<double>& times)>
       truth;
+  /// Rms at each of the times that two references differ by which start a last place apart, m.
+  std::function<std::vector<Maybe>(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                                   const std::vector<double>& times)>
+      sensitivity;
 };
 
 /// Runs it here and now, and the reference beside it; positions are compared at the `times`, s. Throws only

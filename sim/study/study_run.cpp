@@ -7,6 +7,7 @@
 #include "sim/levels/level.h"
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
+#include "sim/study/sensitivity_store.h"
 #include "sim/study/slurm.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
@@ -37,13 +38,16 @@ std::shared_ptr<levels::Mover> mover_of(const std::string& method, const scene::
   return {kept, mover};
 }
 
-/// Levels, rivals, and the truth, which lies in the study's folder.
+/// Levels, rivals, and what all points share, which lies in the study's folder.
 Methods all_methods(const fs::path& folder) {
   const auto truth = [store = TruthStore(folder)](const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                                                   const std::vector<double>& times) {
     return store.at(inputs, mesh, times);
   };
-  return {levels::level_names(), mover_of, truth};
+  const auto sensitivity = [store = SensitivityStore(folder)](
+                               const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                               const std::vector<double>& times) { return store.at(inputs, mesh, times); };
+  return {levels::level_names(), mover_of, truth, sensitivity};
 }
 
 PointRow row_without_run(run::Outcome outcome, const std::string& sentence) {

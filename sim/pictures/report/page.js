@@ -15,6 +15,7 @@ function fillWords(run) {
   byId("outcome").textContent = run.outcome;
   byId("outcome").hidden = !run.outcome;
   byId("outcome").classList.toggle("bad", !run.good);
+  byId("outcome").classList.toggle("doubtful", run.good && !run.rested);
   byId("numbers").hidden = run.tables.length === 0;
   for (const table of run.tables) {
     const card = document.createElement("article");

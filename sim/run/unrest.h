@@ -1,0 +1,14 @@
+// Steps that did not come to rest, in words for people: a run that has such steps is done, yet not green.
+#pragma once
+
+#include "sim/run/run_totals.h"
+
+namespace hopmesh::run {
+
+/// Did a step end before its network had come to rest? For any of the reasons in unrest.cpp.
+bool is_unrested(const levels::StepRow& row);
+
+/// A sentence about such steps of a motion, each reason with its count; empty where there is none.
+std::string unrest_text(const StepRows& rows);
+
+} // namespace hopmesh::run
