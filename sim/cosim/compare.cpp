@@ -1,7 +1,8 @@
 #include "sim/cosim/compare.h"
 
+#include "sim/cosim/undecided.h"
 #include "sim/input/count_text.h"
-#include "sim/run/run_totals.h"
+#include "sim/run/unrest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -232,15 +233,16 @@ std::string text_of(const LevelReport& r) {
       fmt::format("{}: {}", r.level, input::with_noun(sum_of(r, &levels::StepRow::sweeps), "sweep"));
   if (cycles > 0) text += fmt::format(", {} cycles", input::grouped(cycles)); // the reference has none
   text += "\n";
+  if (const std::string unrest = run::unrest_text(r.rows); !unrest.empty()) text += "  " + unrest + "\n";
   if (r.distances.empty()) return text;
   text += fmt::format("  each step against the reference's rest of the same step:\n"
                       "    outputs differ by at most {:.3g}, worst rms of a step {:.3g}\n"
-                      "    worst rms by rounding {:.3g}, by where steps stopped {:.3g}\n"
+                      "    worst rms by rounding {:.3g}, by where steps stopped {:.3g}\n{}"
                       "    energy left above the reference's rest: at most {:.3g} of the step's fall\n"
                       "    weights and biases differ by at most {:.2g} of the largest\n"
                       "  the free motions part (positions, m):\n",
                       largest(&Error::largest_output), largest(&Error::rms_output), largest(&Error::rounding),
-                      largest(&Error::stopping), largest(&Error::energy_gap), largest(&Error::network));
+                      largest(&Error::stopping), undecided_text(r.rows), largest(&Error::energy_gap), largest(&Error::network));
   for (const Distance& d : r.distances)
     text += fmt::format("    after {:>5} step{}  rms {:.3g}  largest {:.3g}\n", d.steps,
                         d.steps == 1 ? " " : "s", d.rms, d.largest);

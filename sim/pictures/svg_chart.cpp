@@ -12,9 +12,31 @@ namespace {
 
 constexpr Box plot{92, 74, 800, 560};
 constexpr double failed_at = plot.right - 14, rightmost = plot.right - 34; // a strip is left for what failed
+constexpr double note_height = 18, letter_width = 6.4, label_height = 12;
 
 bool drawable(const ChartPoint& p) {
   return p.y > 0 && std::isfinite(p.y) && (p.failed || (p.x > 0 && std::isfinite(p.x)));
+}
+
+bool has_mark(const ChartSeries& series) {
+  for (const auto& ladder : series.ladders)
+    if (std::any_of(ladder.begin(), ladder.end(), drawable)) return true;
+  return false;
+}
+
+std::vector<std::string> notes_of(const Chart& chart) {
+  std::ptrdiff_t left_out = 0;
+  for (const ChartSeries& series : chart.series)
+    for (const auto& ladder : series.ladders)
+      left_out += std::count_if(ladder.begin(), ladder.end(), [](const auto& p) { return !drawable(p); });
+  std::vector<std::string> notes = chart.notes;
+  if (left_out > 0)
+    notes.push_back(fmt::format("{} points have no place here (a zero or an empty cell)", left_out));
+  return notes;
+}
+
+double height_for(std::size_t notes) {
+  return 660 + note_height * static_cast<double>(notes > 1 ? notes - 1 : 0);
 }
 
 /// Room of a fifth of a decade at both ends, and a decade in all at least.
@@ -29,7 +51,7 @@ Axis axis_over(const std::vector<double>& values, double from, double to) {
 class Drawing : public SvgCanvas {
  public:
   explicit Drawing(const Chart& chart)
-      : SvgCanvas(1100, 660, plot.left, chart.title,
+      : SvgCanvas(1100, height_for(notes_of(chart).size()), plot.left, chart.title,
                   chart.curves ? "lower left is better"
                                : "lower left is better; dashed: nobody is better in both"),
         chart_(chart) {
@@ -42,27 +64,34 @@ class Drawing : public SvgCanvas {
     if (!chart.curves) draw_front();
     const std::size_t count = chart.series.size();
     for (std::size_t s = 0; s < count; ++s) draw_series(chart.curves ? count - 1 - s : s); // the first on top
+    draw_labels();
     draw_legend();
+    draw_notes();
   }
 
  private:
   void find_axes() {
     std::vector<double> xs, ys;
-    std::size_t left_out = 0;
     for (const ChartSeries& series : chart_.series)
       for (const auto& ladder : series.ladders)
         for (const ChartPoint& p : ladder) {
-          if (!drawable(p)) ++left_out;
-          if (drawable(p)) ys.push_back(p.y);
-          if (drawable(p) && !p.failed) xs.push_back(p.x), good_.push_back(p);
+          if (drawable(p)) ys.push_back(p.y), add_ends(p.up, ys);
+          if (drawable(p) && !p.failed) xs.push_back(p.x), add_ends(p.across, xs), good_.push_back(p);
         }
     for (const ChartLine& line : chart_.lines)
       if (line.x > 0) xs.push_back(line.x);
     x_ = axis_over(xs, plot.left, rightmost), y_ = axis_over(ys, plot.bottom, plot.top);
-    if (left_out > 0)
-      text(plot.left, plot.bottom + 72,
-           fmt::format("{} points have no place here (a zero or an empty cell)", left_out),
-           R"( fill="#666")");
+  }
+
+  static void add_ends(const ChartBar& bar, std::vector<double>& values) {
+    for (const double end : {bar.least, bar.largest})
+      if (end > 0 && std::isfinite(end)) values.push_back(end);
+  }
+
+  void draw_notes() {
+    double y = plot.bottom + 72;
+    for (const std::string& note : notes_of(chart_))
+      text(plot.left, y, note, R"( fill="#666")"), y += note_height;
   }
 
   // A line a decade, thin ones at 2..9, and numbers where decades are.
@@ -133,7 +162,19 @@ class Drawing : public SvgCanvas {
                        chart_colour(index), index == 0 ? 4 : 2, dashes[index % std::size(dashes)]);
   }
 
+  // An end at 0 has no place: its bar goes to the edge.
+  void draw_bars(const ChartPoint& p, const char* colour) {
+    const double x = x_.at(p.x), y = y_.at(p.y);
+    if (p.across.largest > p.across.least && !p.failed)
+      put(R"(<path class="bar" d="M{} {}H{}" stroke="{}" stroke-width="1.6"/>)",
+          p.across.least > 0 ? x_.at(p.across.least) : plot.left, y, x_.at(p.across.largest), colour);
+    if (p.up.largest > p.up.least)
+      put(R"(<path class="bar" d="M{} {}V{}" stroke="{}" stroke-width="1.6"/>)", p.failed ? failed_at : x,
+          p.up.least > 0 ? y_.at(p.up.least) : plot.bottom, y_.at(p.up.largest), colour);
+  }
+
   void draw_mark(const ChartPoint& p, const char* colour) {
+    draw_bars(p, colour);
     put(R"(<circle class="{}" cx="{}" cy="{}" r="5" fill="{}" stroke="{}" stroke-width="1.6" data-command="{}">)"
         "<title>{}</title></circle>",
         p.failed ? "point failed" : "point", p.failed ? failed_at : x_.at(p.x), y_.at(p.y),
@@ -141,21 +182,56 @@ class Drawing : public SvgCanvas {
         escaped(p.tip + '\n' + p.command));
   }
 
+  bool has_room(const Box& label) {
+    if (label.left < plot.left || label.right > plot.right + 12 || label.top < plot.top) return false;
+    for (const Box& other : taken_)
+      if (label.left < other.right && other.left < label.right && label.top < other.bottom &&
+          other.top < label.bottom)
+        return false;
+    taken_.push_back(label);
+    return true;
+  }
+
+  // Above the mark on either side, else below it, else nowhere: a label in another's way tells nothing.
+  void draw_label(const ChartPoint& p) {
+    const double x = p.failed ? failed_at : x_.at(p.x), y = y_.at(p.y);
+    const double wide = letter_width * static_cast<double>(p.label.size());
+    for (const double base : {y - 7, y + 7 + label_height})
+      for (const double left : {x + 6, x - 6 - wide}) {
+        if (!has_room({left, base - label_height, left + wide, base})) continue;
+        text(left, base, p.label, R"( class="label" font-size="11" fill="#444")");
+        return;
+      }
+  }
+
+  void draw_labels() {
+    for (const ChartSeries& series : chart_.series)
+      for (const auto& ladder : series.ladders)
+        for (const ChartPoint& p : ladder)
+          if (drawable(p) && !p.label.empty()) draw_label(p);
+  }
+
   void draw_legend() {
     double y = plot.top + 15;
-    for (std::size_t s = 0; s < chart_.series.size() && s < 24; ++s, y += 22) {
+    for (std::size_t s = 0, shown = 0; s < chart_.series.size() && shown < 24; ++s) {
+      if (!has_mark(chart_.series[s])) continue;
+      ++shown;
       if (chart_.curves) put(R"(<path d="M{} {}h42" {}/>)", plot.right + 20, y - 5, stroke(s));
       if (chart_.curves)
         text(plot.right + 68, y, chart_.series[s].name);
       else
         name(plot.right + 20, y, chart_colour(s), chart_.series[s].name);
+      y += 22;
     }
+    if (!chart_.labels.empty())
+      text(plot.right + 20, y, "at marks: " + chart_.labels, R"( fill="#666")"), y += 22;
     if (!chart_.curves) text(plot.right + 20, y, "hollow: failed, no error to tell", R"( fill="#666")");
   }
 
   const Chart& chart_;
   std::vector<ChartPoint> good_; ///< with a place in x and in y
   Axis x_, y_;
+  std::vector<Box> taken_; ///< by labels
 };
 
 } // namespace

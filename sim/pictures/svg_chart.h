@@ -6,10 +6,17 @@
 
 namespace hopmesh::pictures {
 
+/// From the least to the largest of what a mark stands for.
+struct ChartBar {
+  double least = 0, largest = 0;
+};
+
 struct ChartPoint {
   double x = 0, y = 0;
   bool failed = false; ///< x says nothing: drawn hollow at the right edge
   std::string tip, command;
+  std::string label = {};        ///< beside the mark, where there is room
+  ChartBar across = {}, up = {}; ///< along x and y; a bar of no length is not drawn
 };
 
 /// A method (or one place on an axis): a colour. Each ladder is joined by a line.
@@ -28,7 +35,9 @@ struct Chart {
   std::string title, x_label, y_label;
   std::vector<ChartSeries> series;
   std::vector<ChartLine> lines;
-  bool guides = true;  ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
+  bool guides = true;                  ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
+  std::string labels = {};             ///< what the labels of marks are, for the legend
+  std::vector<std::string> notes = {}; ///< below the chart
   bool curves = false; ///< each ladder is one course: lines that dashes tell apart too, a mark at the end
                        ///< only, neither front nor guides; the first is drawn heavier
 };
@@ -37,6 +46,7 @@ struct Chart {
 std::vector<ChartPoint> pareto_front(const std::vector<ChartPoint>& points);
 
 /// Points with an x or y that is not above 0 have no place on a log-log chart and are counted below it.
+/// Series without a mark have no place in the legend.
 std::string svg_of(const Chart& chart);
 
 } // namespace hopmesh::pictures

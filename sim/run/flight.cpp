@@ -6,6 +6,7 @@
 #include "sim/run/checkpointer.h"
 #include "sim/run/progress.h"
 #include "sim/run/run_picture.h"
+#include "sim/run/unrest.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,9 @@ std::string Flight::text_of(const RunResult& result) const {
                                  run::text_of(tables), folder);
   if (result.outcome == Outcome::interrupted && unsafe_.empty())
     text += fmt::format("To go on\n  hopmesh run --resume {}\n", input::shell_word(folder));
+  // Last, where it is seen: above, the tables push it out of a terminal.
+  if (const std::string unrest = unrest_text(result.rows); !unrest.empty())
+    text += "Not at rest: " + unrest + '\n';
   return text;
 }
 

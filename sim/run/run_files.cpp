@@ -6,10 +6,12 @@
 #include "sim/pictures/overlay.h"
 #include "sim/pictures/report.h"
 #include "sim/run/array_info.h"
+#include "sim/run/hardware_time.h"
 #include "sim/run/run_picture.h"
-#include "sim/run/run_totals.h"
+#include "sim/run/unrest.h"
 #include "version.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -48,6 +50,18 @@ std::string hashes_of(const StepRows& rows) {
   for (const levels::StepRow& row : rows)
     fmt::format_to(std::back_inserter(text), "{}\n    \"{:016x}\"", text.size() > 1 ? "," : "", row.hash);
   return text + (rows.empty() ? "]" : "\n  ]");
+}
+
+/// The colour of the report's pill in a word.
+const char* status_of(const RunResult& result) {
+  if (result.outcome == Outcome::diverged) return "bad";
+  return std::any_of(result.rows.begin(), result.rows.end(), is_unrested) ? "doubtful" : "good";
+}
+
+double hardware_seconds(const StepRows& rows, double clock_mhz) {
+  return HardwareTime{count_of(rows, &levels::StepRow::cycles, levels::Summary::sum),
+                      count_of(rows, &levels::StepRow::bus_cycles, levels::Summary::sum)}
+      .seconds(clock_mhz);
 }
 
 void add_totals(Json& json, levels::Subject subject, const StepRows& rows) {
@@ -147,13 +161,10 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   const double s = result.wall_seconds;
   const std::uint64_t updates = neuron_updates(rows, mesh_);
   const auto a_second = [s](std::uint64_t count) { return Json(s > 0 ? static_cast<double>(count) / s : 0); };
-  Json json{{"scene", facts_.inputs.scene.name},
-            {"level", facts_.level->name},
-            {"outcome", name_of(result.outcome)},
-            {"sentence", result.sentence},
-            {"nodes", mesh_.nodes()},
-            {"neurons", mesh_.topology().neurons()},
-            {"steps", rows.size()}};
+  Json json{{"scene", facts_.inputs.scene.name},     {"level", facts_.level->name},
+            {"outcome", name_of(result.outcome)},    {"status", status_of(result)},
+            {"sentence", result.sentence},           {"nodes", mesh_.nodes()},
+            {"neurons", mesh_.topology().neurons()}, {"steps", rows.size()}};
   add_totals(json, Subject::relaxation, rows);
   if (!rows.empty() && rows.front().fall_left) add_totals(json, Subject::rest, rows);
   json["neuron_updates"] = updates;
@@ -164,6 +175,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   json["peak_memory_mb"] = peak_memory_mb();
   if (facts_.level->has_codes()) {
     add_totals(json, Subject::clock, rows);
+    json["hardware_seconds"] = hardware_seconds(rows, facts_.inputs.array.clock_mhz);
     json["simulated_cycles_per_second"] =
         a_second(count_of(rows, &levels::StepRow::cycles, levels::Summary::sum));
     add_totals(json, Subject::network, rows);

@@ -4,6 +4,7 @@
 #include "sim/input/count_text.h"
 #include "sim/pictures/coarse_view.h"
 #include "sim/run/array_info.h"
+#include "sim/run/hardware_time.h"
 #include "sim/run/unrest.h"
 
 #include <algorithm>
@@ -65,6 +66,11 @@ void add_totals(levels::Subject subject, const StepRows& rows, std::vector<pictu
     if (t.total->name) lines.push_back({t.total->name, t.text()});
 }
 
+std::string hardware_text(const HardwareTime& time, double mhz) {
+  return fmt::format("{:.3g} s at {} MHz, {:.0f} % of it on the bus (the host's own part is not known)",
+                     time.seconds(mhz), mhz, 100 * time.bus_share());
+}
+
 FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels::BuiltMesh& mesh,
                       double seconds) {
   const auto sum = [&](std::uint64_t levels::StepRow::*figure) {
@@ -85,12 +91,11 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
     lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }
   if (is_shown(Subject::clock, facts, rows)) {
-    const std::uint64_t array = sum(&levels::StepRow::cycles), bus = sum(&levels::StepRow::bus_cycles);
-    const double mhz = facts.inputs.array.clock_mhz, hardware = static_cast<double>(array + bus) / mhz / 1e6;
-    lines.push_back({"simulated cycles",
-                     input::grouped(array) + " in the array, " + input::grouped(bus) + " on the bus"});
-    lines.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(array))});
-    lines.push_back({"time on hardware", fmt::format("{:.3g} s at {} MHz", hardware, mhz)});
+    const HardwareTime time{sum(&levels::StepRow::cycles), sum(&levels::StepRow::bus_cycles)};
+    lines.push_back({"simulated cycles", input::grouped(time.array_cycles) + " in the array, " +
+                                             input::grouped(time.bus_cycles) + " on the bus"});
+    lines.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(time.array_cycles))});
+    lines.push_back({"time on hardware", hardware_text(time, facts.inputs.array.clock_mhz)});
     add_totals(Subject::clock, rows, lines);
   }
   add_totals(Subject::motion, rows, lines);

@@ -1,18 +1,17 @@
-// Steps that did not come to rest, in words for people.
+// Steps that did not come to rest, in words for people: a run that has such steps is done, yet not green.
 #pragma once
 
 #include "sim/run/run_totals.h"
 
 namespace hopmesh::run {
 
-/// A step that leaves more than this of its fall to go is not at rest, whatever ended it. Where nobody has
-/// looked for the rest, only max_sweeps tells.
+/// A step that leaves more than this of its fall to go is not at rest, whatever ended it.
 inline constexpr double most_fall_left = 0.1;
 
-/// Did a step stop before its network had come to rest?
+/// Did a step end before its network had come to rest? For any of the reasons in unrest.cpp.
 bool is_unrested(const levels::StepRow& row);
 
-/// A sentence about such steps of a motion; empty where there is none.
+/// A sentence about such steps of a motion, each reason with its count; empty where there is none.
 std::string unrest_text(const StepRows& rows);
 
 } // namespace hopmesh::run

@@ -30,7 +30,8 @@ struct PointRow {
   double array_seconds = 0, host_seconds = 0, largest_strain = 0, omega = 0;
   Maybe output_error, output_error_median, rounding_error, rounding_error_median, stopping_error;
   Maybe stopping_error_median, position_error;
-  std::vector<Maybe> reference_at, truth_at, floor_at; ///< [times of the study]
+  std::vector<Maybe> reference_at, truth_at, floor_at, sensitivity_at; ///< [times of the study]
+  Maybe hardware_seconds;
   std::string sentence;
 };
 
@@ -80,11 +81,18 @@ inline constexpr ResultColumn all_result_columns[] = {
     {"truth_floor", "m",
      "what two independent solutions of the truth differ by: an error below it means nothing",
      &PointRow::floor_at},
+    {"sensitivity", "m",
+     "what two references that start a last place apart differ by at time T: an error below it is luck",
+     &PointRow::sensitivity_at},
     {"steps", "", "done in all", &PointRow::steps},
     {"sweeps", "", "of all steps", &PointRow::sweeps, Role::work},
     {"cycles", "", "of the array, in all", &PointRow::cycles, Role::work},
     {"bus_cycles", "", "that the host held the bus, in all", &PointRow::bus_cycles, Role::work},
-    {"array_seconds", "s", "the cycles at the array's clock", &PointRow::array_seconds, Role::work},
+    {"hardware_seconds", "s",
+     "cycles of array and bus together at the array's clock; the host's own part is not known, and in no "
+     "figure; empty for methods that are no array",
+     &PointRow::hardware_seconds, Role::work},
+    {"array_seconds", "s", "the array's part of it, without the bus", &PointRow::array_seconds, Role::work},
     {"host_seconds", "s",
      "the motion alone, without the reference's judgement of its steps, on this machine: the one column that "
      "differs from run to run",

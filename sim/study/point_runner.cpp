@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/schedule.h"
 #include "sim/run/array_info.h"
+#include "sim/run/hardware_time.h"
 #include "sim/run/run_totals.h"
 #include "sim/scene/frequency.h"
 
@@ -51,6 +52,8 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
     row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
+  if (row.cycles > 0)
+    row.hardware_seconds = run::HardwareTime{row.cycles, row.bus_cycles}.seconds(inputs.array.clock_mhz);
   if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
   if (row.cycles > 0) row.memory_bits = run::memory_bits(mesh, inputs.array).total();
 }
@@ -89,6 +92,7 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
     const Truth truth = methods.truth(inputs, mesh, times);
     row.truth_at = distances(ours.at, truth.positions);
     row.floor_at.assign(truth.floor.begin(), truth.floor.end());
+    row.sensitivity_at = methods.sensitivity(inputs, mesh, times);
   }
   return row;
 }

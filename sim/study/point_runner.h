@@ -32,6 +32,10 @@ struct Methods {
                            const std::vector<double>& times, std::uint64_t steps,
                            const std::atomic<bool>& stop)>
       reference;
+  /// Rms at each of the times that two references differ by which start a last place apart, m.
+  std::function<std::vector<Maybe>(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                                   const std::vector<double>& times)>
+      sensitivity;
 };
 
 /// Runs it here and now; positions are compared at the `times`, s. Throws only

@@ -1,13 +1,18 @@
 #include "sim/study/result_chart.h"
 
 #include "sim/files/output_file.h"
+#include "sim/input/count_text.h"
 #include "sim/input/whole_file.h"
 #include "sim/pictures/chart_page.h"
 #include "sim/pictures/svg_chart.h"
+#include "sim/study/chart_columns.h"
 #include "sim/study/result_table.h"
+#include "sim/study/spread.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
 
 namespace hopmesh::study {
 
@@ -17,63 +22,64 @@ namespace fs = std::filesystem;
 using files::CsvTable;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t most_labels = 60; ///< of more marks, only the ends of ladders have labels
 
-std::size_t known_column(const CsvTable& table, const std::string& flag, const std::string& name) {
-  const auto found = table.column(name);
-  if (!found)
-    throw input::input_error("", 0, flag, name, "a column of results.csv",
-                             input::nearest_name(name, table.header));
-  return *found;
-}
+/// What is drawn of which table.
+struct Choice {
+  const CsvTable& table;
+  const std::string &x, &y;
+  const AxisColumns& axes;
 
-bool has_role(const std::string& heading, Role role) {
-  const ResultColumn* column = column_headed(heading);
-  return column && column->role == role;
-}
-
-bool has_numbers(const CsvTable& table, const std::string& name) {
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    if (table.number(r, name).value_or(0) > 0) return true;
-  return false;
-}
-
-bool is_finished(const CsvTable& table, std::size_t row) {
-  return table.text(row, heading_of(&PointRow::outcome)) == run::name_of(run::Outcome::finished);
-}
-
-// Time of the array where every method that got to the end has one, else of this machine.
-std::string default_y(const CsvTable& table) {
-  std::string array = heading_of(&PointRow::array_seconds), host = heading_of(&PointRow::host_seconds);
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    if (is_finished(table, r) && table.number(r, array).value_or(0) == 0) return host;
-  return has_numbers(table, array) ? array : host;
-}
-
-// The last error that says anything is worth most.
-std::string default_x(const CsvTable& table) {
-  for (std::size_t k = table.header.size(); k-- > 0;) {
-    const std::string& heading = table.header[k];
-    if (has_role(heading, Role::error) && has_numbers(table, heading)) return heading;
+  const std::string& cell(const PointGroup& group, std::size_t column) const {
+    return table.rows[group.rows[0]][column];
   }
-  return heading_of(&PointRow::position_error);
+  const std::string& method(const PointGroup& group) const { return cell(group, axes.method); }
+  /// The first row that says how the points failed, if all of them did.
+  const std::size_t* failed(const PointGroup& group) const {
+    if (!group.told.empty()) return nullptr;
+    for (const std::size_t& row : group.rows)
+      if (!is_finished(table, row) && table.number(row, y)) return &row;
+    return nullptr;
+  }
+  bool is_drawn(const PointGroup& group) const { return !group.told.empty() || failed(group); }
+};
+
+std::string range_text(const Spread& spread) {
+  return fmt::format("{:.4g} (from {:.4g} to {:.4g})", spread.median, spread.least, spread.largest);
 }
 
-std::string tip_of(const CsvTable& table, std::size_t row, std::size_t method, const std::string& x,
-                   const std::string& y) {
-  std::string tip = fmt::format("point {}, {}", table.text(row, heading_of(&Point::number)),
-                                table.text(row, heading_of(&Point::method)));
-  for (std::size_t k = 1; k < method; ++k)
-    tip += fmt::format("\n{} = {}", table.header[k], table.rows[row][k]);
-  return tip + fmt::format("\n{}: {}\n{}: {}\n{}, {}", x, table.text(row, x), y, table.text(row, y),
-                           table.text(row, heading_of(&PointRow::outcome)),
-                           table.text(row, heading_of(&PointRow::stability)));
+std::string tip_of(const Choice& c, const PointGroup& group) {
+  const bool one = c.axes.over.empty();
+  const std::size_t row = group.rows[0];
+  std::string tip =
+      one ? fmt::format("point {}, {}", c.table.text(row, heading_of(&Point::number)), c.method(group))
+          : fmt::format("{} of {} points, {}", group.told.size(), group.rows.size(), c.method(group));
+  for (const std::size_t axis : c.axes.kept)
+    tip += fmt::format("\n{} = {}", c.table.header[axis], c.cell(group, axis));
+  if (!one && !group.told.empty())
+    return tip + fmt::format("\n{}: {}\n{}: {}", c.x, range_text(group.x), c.y, range_text(group.y));
+  return tip + fmt::format("\n{}: {}\n{}: {}\n{}, {}", c.x, c.table.text(row, c.x), c.y,
+                           c.table.text(row, c.y), c.table.text(row, heading_of(&PointRow::outcome)),
+                           c.table.text(row, heading_of(&PointRow::stability)));
+}
+
+pictures::ChartPoint point_of(const Choice& c, const PointGroup& group) {
+  pictures::ChartPoint p;
+  const std::size_t* failed = c.failed(group);
+  p.failed = failed != nullptr;
+  p.x = group.x.median;
+  p.y = failed ? c.table.number(*failed, c.y).value_or(0) : group.y.median;
+  p.across = {group.x.least, group.x.largest}, p.up = {group.y.least, group.y.largest};
+  p.tip = tip_of(c, group);
+  p.command = c.table.text(failed ? *failed : group.middle, heading_of(&Point::command));
+  if (!c.axes.kept.empty()) p.label = c.cell(group, c.axes.kept.back());
+  return p;
 }
 
 /// What the points of one ladder share: all but the last axis.
-std::vector<std::string> ladder_of(const CsvTable& table, std::size_t row, std::size_t method) {
-  const auto& cells = table.rows[row];
-  std::vector<std::string> shared{cells[method]};
-  for (std::size_t k = 1; k + 1 < method; ++k) shared.push_back(cells[k]);
+std::vector<std::string> ladder_of(const Choice& c, const PointGroup& group) {
+  std::vector<std::string> shared{c.method(group)};
+  for (std::size_t k = 0; k + 1 < c.axes.kept.size(); ++k) shared.push_back(c.cell(group, c.axes.kept[k]));
   return shared;
 }
 
@@ -83,27 +89,53 @@ pictures::ChartSeries& series_named(pictures::Chart& chart, const std::string& n
   return chart.series.emplace_back(pictures::ChartSeries{name, {}});
 }
 
-// A colour a method; where there is one only, a colour for each place of the first axis.
-std::vector<pictures::ChartSeries> series_of(const CsvTable& table, const std::string& x,
-                                             const std::string& y) {
-  pictures::Chart chart;
-  const std::size_t method = known_column(table, "results.csv", heading_of(&Point::method));
-  const bool one = std::all_of(table.rows.begin(), table.rows.end(),
-                               [&](const auto& r) { return r[method] == table.rows[0][method]; });
+/// Crowded charts name only the ends of their ladders.
+void thin_labels(std::size_t marks, pictures::Chart& chart) {
+  if (marks <= most_labels) return;
+  for (pictures::ChartSeries& series : chart.series)
+    for (auto& ladder : series.ladders)
+      for (std::size_t k = 1; k + 1 < ladder.size(); ++k) ladder[k].label.clear();
+}
+
+// A colour a method; where one only is drawn, a colour for each place of the first axis.
+void add_series(const Choice& c, const std::vector<PointGroup>& groups, pictures::Chart& chart) {
   std::map<std::vector<std::string>, std::size_t> ladders;
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const std::string name =
-        one && method > 2 ? fmt::format("{} {}", table.header[1], table.rows[r][1]) : table.rows[r][method];
-    pictures::ChartSeries& series = series_named(chart, name);
-    const auto [place, fresh] = ladders.try_emplace(ladder_of(table, r, method), series.ladders.size());
+  std::map<std::string, std::size_t> methods;
+  for (const PointGroup& group : groups)
+    if (c.is_drawn(group)) ++methods[c.method(group)];
+  const bool one = methods.size() == 1 && c.axes.kept.size() > 1;
+  std::size_t marks = 0;
+  for (const PointGroup& group : groups) {
+    if (!c.is_drawn(group)) continue;
+    ++marks;
+    const std::string first = one ? c.table.header[c.axes.kept[0]] + ' ' + c.cell(group, c.axes.kept[0]) : "";
+    pictures::ChartSeries& series = series_named(chart, one ? first : c.method(group));
+    const auto [place, fresh] = ladders.try_emplace(ladder_of(c, group), series.ladders.size());
     if (fresh) series.ladders.emplace_back();
-    pictures::ChartPoint p;
-    p.failed = !is_finished(table, r);
-    p.x = table.number(r, x).value_or(0), p.y = table.number(r, y).value_or(0);
-    p.tip = tip_of(table, r, method, x, y), p.command = table.text(r, heading_of(&Point::command));
-    series.ladders[place->second].push_back(std::move(p));
+    series.ladders[place->second].push_back(point_of(c, group));
   }
-  return chart.series;
+  thin_labels(marks, chart);
+}
+
+/// Whose points are not drawn, and why; points that failed within a group, too.
+void add_notes(const Choice& c, const std::vector<PointGroup>& groups, pictures::Chart& chart) {
+  std::map<std::string, std::size_t> missing;
+  std::size_t within = 0;
+  for (const PointGroup& group : groups) {
+    if (!c.is_drawn(group)) missing[c.method(group)] += group.rows.size();
+    if (!group.told.empty()) within += group.rows.size() - group.told.size();
+  }
+  for (const auto& [method, count] : missing)
+    chart.notes.push_back(fmt::format("Not drawn: {} of {}, without {} or {}",
+                                      input::with_noun(count, "point"), method, c.y, c.x));
+  if (within > 0)
+    chart.notes.push_back(fmt::format("{} failed beside others of their mark and are in no median",
+                                      input::with_noun(within, "point")));
+  if (c.axes.over.empty()) return;
+  std::vector<std::string> names;
+  for (const std::size_t axis : c.axes.over) names.push_back(c.table.header[axis]);
+  chart.notes.push_back(fmt::format(
+      "A mark is the median over {}, its bars reach from the least to the largest", fmt::join(names, ", ")));
 }
 
 /// The least error of a method's finished points, as a line: nobody with the same step can do better.
@@ -117,20 +149,24 @@ void add_line(const CsvTable& table, const std::string& x, const char* method, c
   if (least > 0) chart.lines.push_back({least, name});
 }
 
-/// How far the truth itself is known.
-void add_floor(const CsvTable& table, const std::string& x, pictures::Chart& chart) {
-  const std::string error = heading_of(&PointRow::truth_at), floor = heading_of(&PointRow::floor_at);
-  if (x.rfind(error, 0) != 0) return;
+/// An error at a time has a floor at this time, in a column of its own: the largest of all points.
+void add_floor(const CsvTable& table, const std::string& x, const std::string& floor, const char* name,
+               pictures::Chart& chart) {
+  const std::size_t at = x.find('@');
+  if (at == std::string::npos) return;
   double most = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r)
-    most = std::max(most, table.number(r, floor + x.substr(error.size())).value_or(0));
-  if (most > 0) chart.lines.push_back({most, "truth floor"});
+    most = std::max(most, table.number(r, floor + x.substr(at)).value_or(0));
+  if (most > 0) chart.lines.push_back({most, name});
 }
 
-std::string axis_label(const std::string& heading) {
-  const ResultColumn* column = column_headed(heading);
-  if (!column || !*column->unit) return heading;
-  return fmt::format("{}{}, {}", heading, column->role == Role::error ? " (rms)" : "", column->unit);
+void add_lines(const CsvTable& table, const std::string& x, pictures::Chart& chart) {
+  if (x.rfind(heading_of(&PointRow::truth_at), 0) == 0)
+    add_floor(table, x, heading_of(&PointRow::floor_at), "truth floor", chart);
+  if (has_role(x, Role::error))
+    add_floor(table, x, heading_of(&PointRow::sensitivity_at), "sensitivity to the start's last place",
+              chart);
+  add_line(table, x, "backward_euler", "step solved exactly", chart);
 }
 
 CsvTable table_of(const std::string& results) {
@@ -146,31 +182,51 @@ CsvTable table_of(const std::string& results) {
   }
 }
 
-pictures::Chart chart_of(const CsvTable& table, const std::string& x, const std::string& y,
-                         const std::string& name) {
+// The folder has the study beside the results; where it has not, the folder's own name must do.
+std::string study_name(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  try {
+    const std::string file = (folder / "study.toml").string();
+    return study_of(input::read_whole_file(file, "a study file", most_bytes), name + ".toml").name;
+  } catch (const std::runtime_error&) {
+    return name;
+  }
+}
+
+pictures::Chart chart_of(const Choice& c, const std::vector<PointGroup>& groups, const std::string& name) {
   pictures::Chart chart;
-  chart.guides = has_role(y, Role::work) && has_role(x, Role::error); // bits, or widths, have no order
-  chart.title = name + ": " + (chart.guides ? "speed against accuracy" : y + " against " + x);
-  chart.x_label = axis_label(x), chart.y_label = axis_label(y);
-  chart.series = series_of(table, x, y);
-  add_floor(table, x, chart);
-  add_line(table, x, "backward_euler", "step solved exactly", chart);
+  chart.guides = has_role(c.y, Role::work) && has_role(c.x, Role::error); // bits, or widths, have no order
+  chart.title = name + ": " + (chart.guides ? "speed against accuracy" : c.y + " against " + c.x);
+  chart.x_label = axis_label(c.x), chart.y_label = axis_label(c.y);
+  if (!c.axes.kept.empty()) chart.labels = c.table.header[c.axes.kept.back()];
+  add_series(c, groups, chart);
+  add_notes(c, groups, chart);
+  add_lines(c.table, c.x, chart);
   return chart;
 }
 
 } // namespace
 
-ChartDrawn draw_chart(const fs::path& folder, std::string x, std::string y) {
-  const CsvTable table = table_of((folder / "results.csv").string());
-  if (x.empty()) x = default_x(table);
-  if (y.empty()) y = default_y(table);
-  known_column(table, "--x", x), known_column(table, "--y", y);
-  const pictures::Chart chart =
-      chart_of(table, x, y, fs::absolute(folder).lexically_normal().filename().string());
+std::string draw_chart(const ChartOrder& order) {
+  const CsvTable table = table_of((order.folder / "results.csv").string());
+  const std::string x = order.x.empty() ? default_x(table) : order.x;
+  const std::string y = order.y.empty() ? default_y(table) : order.y;
+  expect_column(table, "--x", x), expect_column(table, "--y", y);
+  const AxisColumns axes = axis_columns(table, order.over);
+  const std::vector<PointGroup> groups = groups_of(table, axes, x, y);
+  const pictures::Chart chart = chart_of({table, x, y, axes}, groups, study_name(order.folder));
+  const fs::path out = order.out.empty() ? order.folder : order.out;
+  files::check_writable(out, 0);
   const std::string svg = pictures::svg_of(chart);
-  files::write_file(folder / "chart.svg", svg);
-  files::write_file(folder / "report.html", pictures::chart_page(chart.title, svg, table));
-  return {table.rows.size(), x, y};
+  files::write_file(out / "chart.svg", svg);
+  files::write_file(out / "report.html", pictures::chart_page(chart.title, svg, table));
+  std::string text = fmt::format("{} points: {} against {}\n", table.rows.size(), y, x);
+  for (const std::string& note : chart.notes) text += note + '\n';
+  text += fmt::format("Results\n  {}\n  {}\n", (out / "chart.svg").string(), (out / "report.html").string());
+  if (order.over.empty()) return text;
+  write_spread(out / "spread.csv", table, axes, groups, x, y);
+  return text + fmt::format("  {}\n", (out / "spread.csv").string());
 }
 
 } // namespace hopmesh::study

@@ -3,15 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hopmesh::study {
 
-struct ChartDrawn {
-  std::size_t points;
-  std::string x, y; ///< columns
+struct ChartOrder {
+  std::filesystem::path folder;  ///< of the results
+  std::filesystem::path out;     ///< of the picture; empty: the same
+  std::string x, y;              ///< columns; empty: the last error that says anything, and the work for it
+  std::vector<std::string> over; ///< axes along which points are one mark
 };
-/// chart.svg and report.html beside the results in the folder. Columns that are left empty are chosen: the
-/// last error that says anything, and the work for it. Throws input::InputError.
-ChartDrawn draw_chart(const std::filesystem::path& folder, std::string x, std::string y);
+
+/// chart.svg and report.html, and spread.csv where points are one mark. Returns what was drawn in lines for
+/// people. Throws input::InputError.
+std::string draw_chart(const ChartOrder& order);
 
 } // namespace hopmesh::study

@@ -8,6 +8,7 @@
 #include "sim/run/children.h"
 #include "sim/run/progress.h"
 #include "sim/study/reference_store.h"
+#include "sim/study/sensitivity_store.h"
 #include "sim/study/slurm.h"
 #include "sim/study/study_folder.h"
 #include "sim/study/truth_store.h"
@@ -50,7 +51,10 @@ Methods all_methods(const fs::path& folder) {
                                        const std::atomic<bool>& stop) {
         return store.at(inputs, mesh, times, steps, stop);
       };
-  return {levels::level_names(), mover_of, truth, reference};
+  const auto sensitivity = [store = SensitivityStore(folder)](
+                               const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                               const std::vector<double>& times) { return store.at(inputs, mesh, times); };
+  return {levels::level_names(), mover_of, truth, reference, sensitivity};
 }
 
 PointRow row_without_run(run::Outcome outcome, const std::string& sentence) {

@@ -1,16 +1,12 @@
 #include "sim/study/truth_store.h"
 
-#include "sim/files/csv.h"
-#include "sim/files/kept_file.h"
 #include "sim/files/npy.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/step_state.h"
 #include "sim/run/checkpoint.h"
+#include "sim/study/claimed_table.h"
 
-#include <chrono>
 #include <fmt/format.h>
-#include <optional>
-#include <thread>
 
 namespace hopmesh::study {
 
@@ -55,8 +51,7 @@ class Saved {
  private:
   files::DamagedFile damaged(std::size_t row, const char* key, const std::string& found,
                              const std::string& expected) const {
-    const int line = static_cast<int>(row) + 2;
-    return files::set_aside(file_, input::input_error(file_.string(), line, key, found, expected).what());
+    return damaged_cell(file_, row, key, found, expected);
   }
 
   files::NpyReader<double> reader() const {
@@ -85,21 +80,6 @@ class Saved {
   const std::size_t nodes_;
 };
 
-/// The right to work a truth out, as a table that nobody else can begin; none where somebody else did, and
-/// has finished it or the user wants to stop. What a killed process began is taken over.
-std::optional<files::CsvWriter> claim(const fs::path& table) {
-  constexpr auto glance = std::chrono::milliseconds(20);
-  while (!fs::exists(table) && !levels::stop_requested) {
-    try {
-      std::optional<files::CsvWriter> writer(std::in_place, table, columns, files::CheckedRows());
-      if (!fs::exists(table)) return writer;
-    } catch (const files::BusyError&) {
-      std::this_thread::sleep_for(glance);
-    }
-  }
-  return std::nullopt;
-}
-
 } // namespace
 
 void TruthStore::expect_known(const scene::Scene& scene) {
@@ -112,7 +92,7 @@ Truth TruthStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
   numbers.insert(numbers.end(), times.begin(), times.end());
   const std::uint64_t hash = levels::hash_on(run::mesh_hash(mesh.mesh()), numbers.data(), numbers.size());
   const fs::path stem = folder_ / fmt::format("truth-{:016x}", hash);
-  std::optional<files::CsvWriter> table = claim(stem.string() + ".csv");
+  std::optional<files::CsvWriter> table = claim_table(stem.string() + ".csv", columns);
   if (!table) return levels::stop_requested ? Truth() : Saved(stem, times, mesh.nodes()).truth();
   Truth truth = levels::exact_motion(inputs.scene, mesh, times);
   if (!truth.positions.empty()) save(*table, stem, times, truth, mesh.nodes());

@@ -54,6 +54,42 @@ TEST(SvgChart, FailedPointsAreHollowAndZerosAreCounted) {
   EXPECT_THAT(svg_of(Chart{}), Not(HasSubstr("nan"))) << "nothing to draw";
 }
 
+TEST(SvgChart, LabelsStandAtMarksWhereThereIsRoom) {
+  Chart chart;
+  chart.labels = "width";
+  ChartPoint eight{1, 1, false, "", ""}, sixteen{0.01, 2, false, "", ""};
+  eight.label = "8", sixteen.label = "16";
+  chart.series = {{"one", {{eight, sixteen}}}};
+  for (int k = 0; k < 9; ++k) chart.series[0].ladders.push_back({eight}); // all in one place
+  const std::string svg = svg_of(chart);
+  EXPECT_EQ(count_of(svg, ">16</text>"), 1u);
+  EXPECT_EQ(count_of(svg, ">8</text>"), 4u) << "one in each corner of the mark, no more";
+  EXPECT_THAT(svg, HasSubstr(">at marks: width</text>"));
+}
+
+TEST(SvgChart, ASeriesWithoutAMarkIsNotInTheLegend) {
+  Chart chart;
+  chart.series = {{"nobody", {{{0, 1, false, "", ""}}}}, {"somebody", {{{1, 1, false, "", ""}}}}};
+  const std::string svg = svg_of(chart);
+  EXPECT_THAT(svg, Not(HasSubstr(">nobody</text>")));
+  EXPECT_THAT(svg, HasSubstr(">somebody</text>"));
+}
+
+TEST(SvgChart, BarsReachFromTheLeastToTheLargest) {
+  Chart chart;
+  ChartPoint wide{1, 1, false, "", ""}, from_zero{2, 1, false, "", ""}, alone{3, 1, false, "", ""};
+  wide.across = {0.5, 2}, wide.up = {0.5, 2};
+  from_zero.across = {0, 4}, from_zero.up = {1, 1};
+  alone.across = {3, 3};
+  chart.series = {{"one", {{wide, from_zero, alone}}}};
+  chart.notes = {"first note", "second note"};
+  const std::string svg = svg_of(chart);
+  EXPECT_EQ(count_of(svg, "class=\"bar\""), 3u) << "two of the first, one of the second to the edge";
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+  EXPECT_THAT(svg, HasSubstr(">first note</text>"));
+  EXPECT_THAT(svg, HasSubstr(">second note</text>"));
+}
+
 TEST(SvgChart, CurvesAreLinesThatDashesTellApart) {
   Chart chart;
   chart.curves = true;

@@ -22,7 +22,7 @@ TEST(Unrest, IsNotTalkedOfWhereThereIsNone) {
 TEST(Unrest, NamesStepsThatRanOutOfSweeps) {
   auto rows = rested(4);
   rows[1].converged = rows[3].converged = false;
-  EXPECT_EQ(run::unrest_text(rows), "2 of 4 steps did not come to rest: 2 stopped by max_sweeps.");
+  EXPECT_EQ(run::unrest_text(rows), "2 of 4 steps ended at max_sweeps.");
   EXPECT_TRUE(run::is_unrested(rows[1]));
   EXPECT_FALSE(run::is_unrested(rows[0]));
 }
@@ -32,10 +32,10 @@ TEST(Unrest, NamesStepsThatCallThemselvesAtRestAndAreNot) {
   for (levels::StepRow& row : rows) row.fall_left = run::most_fall_left / 2, row.input_left = 1;
   EXPECT_EQ(run::unrest_text(rows), "") << "the fall is known, so the input says nothing";
   rows[2].fall_left = 0.33;
-  EXPECT_EQ(run::unrest_text(rows), "1 of 4 steps did not come to rest: 1 left up to 33 % of their fall.");
+  EXPECT_EQ(run::unrest_text(rows), "1 of 4 steps left more than a tenth of their fall.");
   rows[2].converged = false;
   EXPECT_EQ(run::unrest_text(rows),
-            "1 of 4 steps did not come to rest: 1 stopped by max_sweeps, 1 left up to 33 % of their fall.");
+            "1 of 4 steps ended at max_sweeps, 1 of 4 steps left more than a tenth of their fall.");
 }
 
 TEST(Unrest, IsNotGuessedFromTheInput) {

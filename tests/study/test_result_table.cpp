@@ -38,17 +38,17 @@ TEST(ResultTable, HasAColumnAnAxisAndAColumnATime) {
             "rounding_error,rounding_error_median,stopping_error,stopping_error_median,position_error,"
             "reference_error@0.1,reference_error@0.2,truth_"
             "error@0.1,truth_error@0.2,truth_floor@0.1,"
-            "truth_floor@0.2,");
+            "truth_floor@0.2,sensitivity@0.1,sensitivity@0.2,");
 }
 
 TEST(ResultTable, LeavesEmptyWhatIsNotKnown) {
   PointRow row;
   row.sentence = "killed";
-  EXPECT_THAT(file_of(row), HasSubstr("\n7,1,2,engine,crashed,stable,,,,,,,,,,,,,,0,0,"));
+  EXPECT_THAT(file_of(row), HasSubstr("\n7,1,2,engine,crashed,stable,,,,,,,,,,,,,,,,0,0,"));
   row.outcome = run::Outcome::finished;
   row.output_error = 0.5;
   row.truth_at = {std::nullopt, 0.25};
-  EXPECT_THAT(file_of(row), HasSubstr("\n7,1,2,engine,finished,stable,0.5,,,,,,,,,,0.25,,,0,0,"));
+  EXPECT_THAT(file_of(row), HasSubstr("\n7,1,2,engine,finished,stable,0.5,,,,,,,,,,0.25,,,,,0,0,"));
 }
 
 /// A member of your own; a line of the table is all that its column takes.

@@ -39,9 +39,9 @@ void add_size(CLI::App& program, int& exit_code) {
   verb->add_option("--against", o->order.against, "reference (its free motion), or truth")
       ->check(one_name_of(study::size_judges()))
       ->capture_default_str();
-  verb->add_option(
-          "--time-per-step", o->order.time_per_step,
-          "s: the fewest lanes that do the slowest step in so long (else: least silicon times cycles)")
+  verb->add_option("--time-per-step", o->order.time_per_step,
+                   "s: the fewest lanes that do the slowest step in so long, bus included (else: least "
+                   "silicon times cycles of array and bus)")
       ->check(positive_number());
   verb->add_option("--steps", o->order.steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out,

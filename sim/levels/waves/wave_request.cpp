@@ -46,7 +46,25 @@ std::vector<std::size_t> parse_cells(const std::string& text) {
   return cells;
 }
 
+namespace {
+
+/// Endings of formats that wave viewers know and nobody here writes.
+constexpr const char* other_formats[] = {".fst",  ".ghw", ".lxt", ".lx2", ".lxt2", ".vzt", ".evcd",
+                                         ".fsdb", ".vpd", ".wlf", ".wdb", ".trn",  ".shm"};
+
+void expect_vcd(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const char* other : other_formats)
+    if (ending == other)
+      throw input::input_error("", 0, "--wave", file, "FILE.vcd: waves are written as VCD only");
+}
+
+} // namespace
+
 void check_wave(const WaveRequest& request, std::size_t cells) {
+  expect_vcd(request.file);
   for (std::size_t c : request.cells)
     if (c >= cells)
       throw input::input_error("", 0, "--wave-cells", std::to_string(c),

@@ -7,6 +7,7 @@
 #include "sim/run/progress.h"
 #include "sim/run/run_totals.h"
 #include "sim/study/truth_store.h"
+#include "sim/study/twin.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,10 +36,13 @@ scene::Scene at_rest_scene(scene::Scene scene, std::int64_t rest_sweeps) {
 }
 
 /// Adds a link to the chain; false where its motion was interrupted.
-bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion, Budget& budget) {
+bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion, Budget& budget,
+         run::StepSink* beside = nullptr) {
   const auto steps = static_cast<std::uint64_t>(motion.steps);
   run::Snapshots snapshots(budget.times, motion.time_step);
-  const run::RunResult result = run::simulate_shown(mover, steps, {&snapshots});
+  std::vector<run::StepSink*> sinks{&snapshots};
+  if (beside) sinks.push_back(beside);
+  const run::RunResult result = run::simulate_shown(mover, steps, sinks);
   if (result.outcome == run::Outcome::diverged)
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
   const std::uint64_t unfinished =
@@ -50,6 +54,12 @@ bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion,
   return result.outcome != run::Outcome::interrupted;
 }
 
+std::vector<std::optional<double>> at_times(const Twin& twin, const Budget& budget, double time_step) {
+  std::vector<std::optional<double>> at(budget.times.size());
+  for (std::size_t k = 0; k < at.size(); ++k) at[k] = twin.apart_at(budget.times[k], time_step);
+  return at;
+}
+
 /// False where the user stopped it.
 bool fly_all(const levels::Prepared& p, std::int64_t rest_sweeps, Budget& budget) {
   const scene::Scene& scene = p.inputs.scene;
@@ -58,12 +68,16 @@ bool fly_all(const levels::Prepared& p, std::int64_t rest_sweeps, Budget& budget
   levels::ReferenceMover rest(at_rest_scene(scene, rest_sweeps), *p.mesh, p.inputs.array);
   std::optional<levels::ExactStep> exact;
   if (levels::ExactStep::exists_for(scene)) exact.emplace(scene, *p.mesh);
-  const auto link = [&](levels::Mover& mover, const std::string& motion, const std::string& mends) {
-    return fly(mover, {motion, mends, {}}, scene.motion, budget);
+  Twin twin(scene, *p.mesh, p.inputs.array);
+  const auto link = [&](levels::Mover& mover, const std::string& motion, const std::string& mends,
+                        run::StepSink* beside = nullptr) {
+    return fly(mover, {motion, mends, {}}, scene.motion, budget, beside);
   };
-  return link(*array.mover, "array " + p.inputs.array.name, "quantisation") &&
-         link(same, "reference, the same sweeps at most and threshold", "unfinished relaxation") &&
-         link(rest, "reference, relaxed to rest", "formulation") &&
+  const bool flown =
+      link(*array.mover, "array " + p.inputs.array.name, "quantisation") &&
+      link(same, "reference, the same sweeps at most and threshold", "unfinished relaxation", &twin);
+  budget.sensitivity = at_times(twin, budget, scene.motion.time_step);
+  return flown && link(rest, "reference, relaxed to rest", "formulation") &&
          (!exact || link(*exact, scene.formulation_name() + ", each step solved exactly", "time step"));
 }
 
@@ -84,6 +98,7 @@ void add_rows(Budget& budget) {
     budget.rows.push_back(budget_of(positions));
     budget.rows.back().time = budget.times[k];
     budget.rows.back().floor = budget.floor[k];
+    budget.rows.back().sensitivity = budget.sensitivity[k];
   }
 }
 

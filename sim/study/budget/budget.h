@@ -19,8 +19,9 @@ struct Budget {
   std::vector<double> times;     ///< s
   std::vector<BudgetLink> chain; ///< the truth, which mends nothing, is its last
   std::vector<double> floor;
-  std::vector<std::string> troubles; ///< in sentences
-  std::vector<BudgetAt> rows;        ///< where everybody came to
+  std::vector<std::optional<double>> sensitivity; ///< [times]
+  std::vector<std::string> troubles;              ///< in sentences
+  std::vector<BudgetAt> rows;                     ///< where everybody came to
 };
 
 /// Makes sure before any work that a truth is known, and that the folder can be written to. Throws

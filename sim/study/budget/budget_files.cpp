@@ -18,7 +18,7 @@ std::vector<std::string> parts_of(const Budget& budget) {
 }
 
 void write_table(const std::filesystem::path& file, const Budget& budget) {
-  std::vector<std::string> columns{"time", "total", "truth_floor"};
+  std::vector<std::string> columns{"time", "total", "truth_floor", "sensitivity"};
   for (std::string name : parts_of(budget)) {
     std::replace(name.begin(), name.end(), ' ', '_');
     columns.push_back(name);
@@ -26,7 +26,7 @@ void write_table(const std::filesystem::path& file, const Budget& budget) {
   }
   files::CsvWriter table(file, columns);
   for (const BudgetAt& row : budget.rows) {
-    table.cell(row.time).cell(row.total).cell(row.floor);
+    table.cell(row.time).cell(row.total).cell(row.floor).cell(row.sensitivity);
     for (const auto& part : row.parts) table.cell(part.norm).cell(part.share);
     table.end_row();
   }
@@ -56,15 +56,26 @@ pictures::StackedBars picture_of(const levels::Prepared& p, const Budget& budget
 std::string row_lines(const Budget& budget) {
   std::string lines =
       fmt::format("Rms over nodes, m, and share of the whole (by projection: shares add up to 100 %)\n"
-                  "{:>9}{:>11}{:>11}",
-                  "time, s", "whole", "floor");
+                  "{:>9}{:>11}{:>11}{:>13}",
+                  "time, s", "whole", "floor", "sensitivity");
   for (const std::string& name : parts_of(budget)) lines += fmt::format("{:>24}", name);
   for (const BudgetAt& row : budget.rows) {
-    lines += fmt::format("\n{:>9.4g}{:>11.2e}{:>11.1e}", row.time, row.total, row.floor);
+    lines += fmt::format("\n{:>9.4g}{:>11.2e}{:>11.1e}{:>13}", row.time, row.total, row.floor,
+                         row.sensitivity ? fmt::format("{:.1e}", *row.sensitivity) : "");
     for (const auto& part : row.parts)
       lines += fmt::format("{:>13.2e}{:>+9.1f} %", part.norm, 100 * part.share);
   }
   return lines + '\n';
+}
+
+/// From where on the array's part is no larger than what the last place of the start makes.
+std::string undecided_text(const Budget& budget) {
+  for (const BudgetAt& row : budget.rows)
+    if (row.sensitivity && *row.sensitivity > 0 && row.parts[0].norm <= *row.sensitivity)
+      return fmt::format("From {:.4g} s on the motion does not decide {}: two references that start a last "
+                         "place apart differ by as much.\n",
+                         row.time, budget.chain[0].mends);
+  return "";
 }
 
 } // namespace
@@ -77,7 +88,7 @@ std::string text_of(const levels::Prepared& p, const Budget& budget) {
   if (!levels::ExactStep::exists_for(p.inputs.scene))
     text += "The probe has no exact step that tends to this physics, so its time step has no part of its "
             "own: formulation\nis all that lies between its rest and the truth.\n";
-  if (!budget.rows.empty()) text += row_lines(budget);
+  if (!budget.rows.empty()) text += row_lines(budget) + undecided_text(budget);
   for (const std::string& trouble : budget.troubles) text += trouble + '\n';
   return text;
 }

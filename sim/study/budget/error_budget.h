@@ -4,6 +4,7 @@
 
 #include "sim/run/snapshots.h"
 
+#include <optional>
 #include <string>
 
 namespace hopmesh::study {
@@ -17,9 +18,10 @@ struct BudgetPart {
 };
 
 struct BudgetAt {
-  double time = 0;  ///< s
-  double total = 0; ///< rms of the run's distance from the truth, m
-  double floor = 0; ///< how far the truth itself is known, m
+  double time = 0;                   ///< s
+  double total = 0;                  ///< rms of the run's distance from the truth, m
+  double floor = 0;                  ///< how far the truth itself is known, m
+  std::optional<double> sensitivity; ///< what two references that start a last place apart differ by, m
   std::vector<BudgetPart> parts;
 };
 

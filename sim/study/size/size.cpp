@@ -7,7 +7,9 @@
 #include "sim/run/run_totals.h"
 #include "sim/study/size/size_report.h"
 #include "sim/study/truth_store.h"
+#include "sim/study/twin.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hopmesh::study {
@@ -25,16 +27,34 @@ struct Target {
   run::Positions positions;
   std::uint64_t sweeps = 0;      ///< of the reference, in all
   double reached = 0, floor = 0; ///< how near double itself comes to the truth, and how far that is known, m
+  double sensitivity = 0;        ///< of the motion to the last place of its start, m
   std::string trouble;           ///< why there is no target, if so
 };
+
+// An error that the last place of the start decides is met by luck or not at all.
+void expect_decided(double error, const Twin& twin, double time_step) {
+  const std::vector<double>& apart = twin.apart();
+  if (apart.empty() || error >= apart.back()) return;
+  const auto lost = std::find_if(apart.begin(), apart.end(), [&](double d) { return d > error; });
+  const auto steps = lost - apart.begin();
+  throw input::input_error(
+      "", 0, "--error", fmt::format("{}", error),
+      fmt::format("at least {:.3g}: so far apart, in m, end two references that start a last place apart; "
+                  "the longest time for which {} m is decided is {:.4g} s (--steps {})",
+                  apart.back(), error, static_cast<double>(steps) * time_step, steps));
+}
 
 // The end of the reference's free motion, or of the exact one, which lies in the folder.
 Target target_of(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder) {
   const scene::MotionKeys& motion = p.inputs.scene.motion;
   levels::ReferenceMover reference(p.inputs.scene, *p.mesh, p.inputs.array);
-  const run::RunResult result = run::simulate_shown(reference, static_cast<std::uint64_t>(motion.steps));
+  Twin twin(p.inputs.scene, *p.mesh, p.inputs.array);
+  const run::RunResult result =
+      run::simulate_shown(reference, static_cast<std::uint64_t>(motion.steps), {&twin});
   if (result.outcome == run::Outcome::interrupted) throw SearchStopped();
+  if (result.outcome == run::Outcome::finished) expect_decided(order.error, twin, motion.time_step);
   Target target;
+  if (!twin.apart().empty()) target.sensitivity = twin.apart().back();
   target.positions = reference.positions();
   target.sweeps = run::count_of(result.rows, &levels::StepRow::sweeps, levels::Summary::sum);
   if (result.outcome == run::Outcome::diverged) target.trouble = "the reference: " + result.sentence;
@@ -51,13 +71,19 @@ Target target_of(const SizeOrder& order, const levels::Prepared& p, const std::f
   return target;
 }
 
-// Ranges are of values: the array as given shows them.
-std::vector<levels::SignalRange> ranges_of(const levels::Prepared& p) {
+/// The array as given: its ranges, which are of values and so hold for all widths, and what it comes to.
+struct Given {
+  std::vector<levels::SignalRange> ranges;
+  TrialRow row;
+};
+
+Given fly_given(const levels::Prepared& p, const Target& target) {
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
-  run::simulate(*level.mover, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {},
-                levels::stop_requested);
+  const run::RunResult result = run::simulate(
+      *level.mover, static_cast<std::uint64_t>(p.inputs.scene.motion.steps), {}, levels::stop_requested);
   if (levels::stop_requested) throw SearchStopped();
-  return level.mover->ranges();
+  return {level.mover->ranges(),
+          trial_row(result, run::rms_distance(level.mover->positions(), target.positions))};
 }
 
 std::uint64_t hash_of(const SizeOrder& order, const levels::Prepared& p) {
@@ -83,14 +109,16 @@ SizeEnd search(const SizeOrder& order, const levels::Prepared& p, const std::fil
   const std::string why = why_not(order, target);
   if (!why.empty()) return {run::Outcome::failed, fmt::format("{}: {}\n", name, why)};
   Sizing sizing(p.inputs, *p.mesh);
-  sizing.keep_integer_bits(ranges_of(p));
+  const Given given = fly_given(p, target);
+  sizing.keep_integer_bits(given.ranges);
   SizeTrials trials(sizing, kept, target.positions, order.workers);
   const auto sweeps = static_cast<std::uint64_t>(most_sweeps * static_cast<double>(target.sweeps));
   const SizeGoal goal{order.error, order.time_per_step, sweeps, p.inputs.array.clock_mhz,
                       p.mesh->topology().most_taps()};
   const SizeFound found = find_size(sizing, goal, trials);
   if (!found.reached) return {run::Outcome::failed, fmt::format("{}: {}\n", name, found.why)};
-  const SizeReport report{order, p, sizing, found, folder, target.reached, target.floor};
+  const SizeReport report{
+      order, p, sizing, found, given.row, folder, target.reached, target.floor, target.sensitivity, sweeps};
   write_size(report);
   return {run::Outcome::finished, text_of(report)};
 }

@@ -26,8 +26,8 @@ struct SizeEnd {
   std::string text;     ///< for people
 };
 /// `prepared`: what the order's words name. Leaves size.toml and size.csv in the folder, and goes on with
-/// what an earlier search left there. Throws input::InputError before it writes anything, and
-/// files::WriteError.
+/// what an earlier search left there. Throws input::InputError, also for an error that the last place of the
+/// start decides, and files::WriteError.
 SizeEnd size_array(const SizeOrder& order, const levels::Prepared& prepared,
                    const std::filesystem::path& folder);
 

@@ -3,6 +3,7 @@
 #include "sim/files/csv.h"
 #include "sim/input/count_text.h"
 #include "sim/run/array_info.h"
+#include "sim/run/hardware_time.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,6 +20,14 @@ std::string command_of(const SizeReport& r, const Setting& setting) {
   return "hopmesh run " + text_of(words);
 }
 
+run::HardwareTime time_of(const TrialRow& row) {
+  return {row.cycles, row.bus_cycles};
+}
+
+double slowest_step(const TrialRow& row, const spec::ArraySpec& array) {
+  return static_cast<double>(row.most_cycles) / (array.clock_mhz * 1e6);
+}
+
 void write_row(files::CsvWriter& table, const SizeReport& r, const SizeEvidence& e) {
   table.cell(e.what).cell(e.knob);
   for (std::size_t knob = 0; knob < knob_count; ++knob) table.cell(r.sizing.text_of(e.setting, knob));
@@ -26,7 +35,8 @@ void write_row(files::CsvWriter& table, const SizeReport& r, const SizeEvidence&
   table.cell(run::memory_bits(*r.prepared.mesh, array).total());
   table.cell(run::multiplier_bits(*r.prepared.mesh, array));
   table.cell(name_of(e.row.outcome)).cell(e.row.error).cell(e.fails_by).cell(e.row.sweeps).cell(e.row.cycles);
-  table.cell(static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6));
+  table.cell(e.row.bus_cycles).cell(time_of(e.row).seconds(array.clock_mhz));
+  table.cell(slowest_step(e.row, array));
   table.cell(command_of(r, e.setting)).end_row();
 }
 
@@ -34,7 +44,7 @@ void write_evidence(const SizeReport& r) {
   std::vector<std::string> columns{"what", "knob"};
   columns.insert(columns.end(), knob_names.begin(), knob_names.end());
   for (const char* name : {"memory_bits", "multiplier_bits", "status", "error", "fails_by", "sweeps",
-                           "cycles", "slowest_step", "command"})
+                           "cycles", "bus_cycles", "hardware_seconds", "slowest_step", "command"})
     columns.emplace_back(name);
   files::CsvWriter table(r.folder / "size.csv", columns);
   for (const SizeEvidence& e : r.found.evidence) write_row(table, r, e);
@@ -86,20 +96,46 @@ std::string lane_lines(const SizeReport& r) {
       fmt::format("Lanes: {}, {}\n", r.found.setting[k_lanes],
                   r.order.time_per_step > 0
                       ? fmt::format("the fewest that do the slowest step in {} s", r.order.time_per_step)
-                      : std::string("where silicon times cycles is least"));
+                      : std::string("where silicon times cycles, of array and bus together, is least"));
   for (const SizeEvidence& e : r.found.evidence) {
     if (e.what != "lanes") continue;
     const spec::ArraySpec array = r.sizing.array_of(e.setting);
-    lines += fmt::format("  {:>3} lanes {:>14} cycles {:>12.3g} s the slowest step {:>14} silicon bits\n",
-                         array.lanes, grouped(e.row.cycles),
-                         static_cast<double>(e.row.most_cycles) / (array.clock_mhz * 1e6),
+    lines += fmt::format("  {:>3} lanes {:>14} cycles {:>4.0f} % bus {:>12.3g} s the slowest step {:>14} "
+                         "silicon bits\n",
+                         array.lanes, grouped(time_of(e.row).cycles()), 100 * time_of(e.row).bus_share(),
+                         slowest_step(e.row, array),
                          grouped(static_cast<std::uint64_t>(r.sizing.silicon_bits(e.setting))));
   }
-  for (const spec::ArraySpec& array : {r.prepared.inputs.array, r.sizing.array_of(r.found.setting)})
-    lines += fmt::format("  {:<12} {:>12} memory bits {:>12} multiplier bits\n", array.name,
+  return lines;
+}
+
+/// Like with like first: what the words save shows at equal lanes.
+std::string silicon_lines(const SizeReport& r) {
+  const spec::ArraySpec& given = r.prepared.inputs.array;
+  std::vector<spec::ArraySpec> arrays(2, r.sizing.array_of(r.found.setting));
+  arrays[0].lanes = given.lanes;
+  arrays.insert(arrays.begin(), given);
+  if (arrays[1].lanes == arrays[2].lanes) arrays.pop_back();
+  std::string lines = "Silicon\n";
+  for (const spec::ArraySpec& array : arrays)
+    lines += fmt::format("  {:<12} {:>7} {:>14} memory bits {:>14} multiplier bits\n", array.name,
+                         with_noun(static_cast<std::uint64_t>(array.lanes), "lane"),
                          grouped(run::memory_bits(*r.prepared.mesh, array).total()),
                          grouped(run::multiplier_bits(*r.prepared.mesh, array)));
   return lines;
+}
+
+/// Whether there was anything to be gained.
+std::string given_line(const SizeReport& r) {
+  const std::string& name = r.prepared.inputs.array.name;
+  if (r.given.outcome != run::Outcome::finished)
+    return fmt::format("The array as given, {}, {}\n", name, run::name_of(r.given.outcome));
+  const bool near = r.given.error <= r.order.error, soon = r.given.sweeps <= r.most_sweeps;
+  return fmt::format("The array as given, {}: {:.3g} m, {}: {}\n", name, r.given.error,
+                     with_noun(r.given.sweeps, "sweep"),
+                     near && soon ? "meets the error"
+                     : near       ? fmt::format("takes more than {} sweeps", grouped(r.most_sweeps))
+                                  : std::string("does not meet the error"));
 }
 
 } // namespace
@@ -122,7 +158,8 @@ std::string text_of(const SizeReport& r) {
   if (r.order.against == size_judges().back())
     text += fmt::format("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
                         r.reached, r.floor);
-  text += knob_lines(r) + lane_lines(r);
+  text += fmt::format("Two references that start a last place apart end {:.2g} m apart\n", r.sensitivity);
+  text += given_line(r) + knob_lines(r) + lane_lines(r) + silicon_lines(r);
   text += fmt::format("Formats tried: {}; {} met the error, {} of them with less silicon than this\n",
                       r.found.tried, r.found.met, r.found.cheaper);
   const std::string command = file_command(r);

@@ -12,8 +12,11 @@ struct SizeReport {
   const levels::Prepared& prepared;
   const Sizing& sizing;
   const SizeFound& found;
+  const TrialRow& given; ///< what the array that the search starts from comes to
   const std::filesystem::path& folder;
-  double reached, floor; ///< of the truth: how near double itself comes, and how far it is known, m
+  double reached, floor;     ///< of the truth: how near double itself comes, and how far it is known, m
+  double sensitivity;        ///< of the motion to the last place of its start, m
+  std::uint64_t most_sweeps; ///< that meet the order
 };
 
 /// size.toml, the array, and size.csv, the evidence.

@@ -127,13 +127,14 @@ class Search {
     return settings;
   }
 
-  // Lanes change cycles, not bits. Unasked: the least product of silicon and cycles.
+  // Lanes change cycles of the array, neither bits nor the bus. Unasked: the least product of silicon and the
+  // cycles of both.
   bool choose_lanes() {
     const std::vector<Setting> settings = lane_settings();
     const std::vector<TrialRow> rows = trials_.rows(settings);
     std::optional<std::size_t> best;
     const auto product = [&](std::size_t k) {
-      return sizing_.silicon_bits(settings[k]) * static_cast<double>(rows[k].cycles);
+      return sizing_.silicon_bits(settings[k]) * static_cast<double>(rows[k].cycles + rows[k].bus_cycles);
     };
     for (std::size_t k = 0; k < settings.size(); ++k) {
       const bool fits = goal_.time_per_step == 0 || seconds(rows[k]) <= goal_.time_per_step;

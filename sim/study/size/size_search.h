@@ -8,7 +8,7 @@ namespace hopmesh::study {
 
 struct SizeGoal {
   double error = 0;              ///< rms of positions at the end, m
-  double time_per_step = 0;      ///< s, of the slowest step in the array; 0: the knee
+  double time_per_step = 0;      ///< s, of the slowest step on hardware; 0: the knee
   std::uint64_t most_sweeps = 0; ///< in all: bits are not to be bought with sweeps
   double clock_mhz = 100;
   std::size_t most_taps = 1;

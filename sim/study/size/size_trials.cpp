@@ -5,11 +5,21 @@
 #include "sim/run/children.h"
 #include "sim/run/run_totals.h"
 
+#include <algorithm>
+
 namespace hopmesh::study {
 
 namespace {
 
-TrialRow row_of(const run::RunResult& result, double error) {
+std::uint64_t slowest(const run::StepRows& rows) {
+  std::uint64_t most = 0;
+  for (const levels::StepRow& row : rows) most = std::max(most, row.cycles + row.bus_cycles);
+  return most;
+}
+
+} // namespace
+
+TrialRow trial_row(const run::RunResult& result, double error) {
   using levels::StepRow;
   using levels::Summary;
   TrialRow row;
@@ -18,11 +28,10 @@ TrialRow row_of(const run::RunResult& result, double error) {
   row.sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::sum);
   row.most_sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::largest);
   row.cycles = run::count_of(result.rows, &StepRow::cycles, Summary::sum);
-  row.most_cycles = run::count_of(result.rows, &StepRow::cycles, Summary::largest);
+  row.bus_cycles = run::count_of(result.rows, &StepRow::bus_cycles, Summary::sum);
+  row.most_cycles = slowest(result.rows);
   return row;
 }
-
-} // namespace
 
 // In a child.
 int SizeTrials::fly(const Setting& setting) const {
@@ -32,7 +41,7 @@ int SizeTrials::fly(const Setting& setting) const {
   const auto steps = static_cast<std::uint64_t>(p.inputs.scene.motion.steps);
   const run::RunResult result = run::simulate(*level.mover, steps, {}, levels::stop_requested);
   if (levels::stop_requested) return run::child_stopped;
-  folder_.save(setting, row_of(result, run::rms_distance(level.mover->positions(), target_)));
+  folder_.save(setting, trial_row(result, run::rms_distance(level.mover->positions(), target_)));
   return run::child_done;
 }
 

@@ -11,6 +11,9 @@ namespace hopmesh::study {
 /// The user stopped the search; what was tried is safe.
 class SearchStopped : public std::exception {};
 
+/// What a motion came to that ended so far from its target, m.
+TrialRow trial_row(const run::RunResult& result, double error);
+
 class SizeTrials {
  public:
   /// `target`: where the motion should end. Everything must outlive the trials.

@@ -9,7 +9,8 @@ namespace hopmesh::study {
 
 namespace {
 
-const std::vector<std::string> columns{"status", "error", "sweeps", "most_sweeps", "cycles", "most_cycles"};
+const std::vector<std::string> columns{"status", "error",      "sweeps",     "most_sweeps",
+                                       "cycles", "bus_cycles", "most_cycles"};
 
 std::string name_of(const Setting& setting) {
   return fmt::format("{}", fmt::join(setting, "-"));
@@ -38,7 +39,7 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
   row.outcome = *outcome;
   take("error", row.error);
   take("sweeps", row.sweeps), take("most_sweeps", row.most_sweeps);
-  take("cycles", row.cycles), take("most_cycles", row.most_cycles);
+  take("cycles", row.cycles), take("bus_cycles", row.bus_cycles), take("most_cycles", row.most_cycles);
   if (!(row.error >= 0)) throw safe_.damaged(name, table.text(0, "error"), "a distance", "error");
   return row;
 }
@@ -46,7 +47,7 @@ std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
 void TrialFolder::save(const Setting& setting, const TrialRow& row) const {
   files::CsvWriter table = safe_.writer(name_of(setting));
   table.cell(run::name_of(row.outcome)).cell(row.error).cell(row.sweeps).cell(row.most_sweeps);
-  table.cell(row.cycles).cell(row.most_cycles).end_row();
+  table.cell(row.cycles).cell(row.bus_cycles).cell(row.most_cycles).end_row();
   table.commit();
 }
 

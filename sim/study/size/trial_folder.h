@@ -14,7 +14,8 @@ struct TrialRow {
   run::Outcome outcome = run::Outcome::crashed;
   double error = HUGE_VAL;                   ///< rms of positions at the end, m
   std::uint64_t sweeps = 0, most_sweeps = 0; ///< in all, and of the longest step
-  std::uint64_t cycles = 0, most_cycles = 0;
+  std::uint64_t cycles = 0, bus_cycles = 0;  ///< of the array and of the bus, in all
+  std::uint64_t most_cycles = 0;             ///< of both, in the step that took longest
 };
 
 class TrialFolder {

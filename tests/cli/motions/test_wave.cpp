@@ -36,6 +36,15 @@ TEST_F(CliWave, AWindowThatNeverComesIsTold) {
   EXPECT_FALSE(std::filesystem::exists(at("w.vcd")));
 }
 
+// Viewers would take them for what their names say.
+TEST_F(CliWave, OtherFormatsAreRefused) {
+  for (const char* file : {"w.fst", "w.FST", "deep/w.ghw", "w.lxt2", "w.fsdb"})
+    for (const char* level : {"engine", "systemc", "systemc-clock"})
+      refused(std::string("run two-nodes --out r --wave ") + file + " --level " + level,
+              std::string("--wave: found ") + file + ", expected FILE.vcd");
+  EXPECT_EQ(names_in(around.folder), std::vector<std::string>());
+}
+
 TEST_F(CliWave, AFolderThatCannotBeMadeIsRefusedBeforeTheRun) {
   refused("run two-nodes --level systemc --out r --wave /proc/none/w.vcd");
   EXPECT_FALSE(std::filesystem::exists(at("r")));

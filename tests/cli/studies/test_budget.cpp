@@ -39,10 +39,10 @@ class CliBudget : public Cli {
 TEST_F(CliBudget, PartsAreDistancesOfRuns) {
   good("budget " + small + " --steps 12 --array byte --out b");
   const Table t = read_table(at("b") / "budget.csv");
-  EXPECT_EQ(t.header,
-            (std::vector<std::string>{"time", "total", "truth_floor", "quantisation", "quantisation_share",
-                                      "unfinished_relaxation", "unfinished_relaxation_share", "formulation",
-                                      "formulation_share", "time_step", "time_step_share"}));
+  EXPECT_EQ(t.header, (std::vector<std::string>{"time", "total", "truth_floor", "sensitivity", "quantisation",
+                                                "quantisation_share", "unfinished_relaxation",
+                                                "unfinished_relaxation_share", "formulation",
+                                                "formulation_share", "time_step", "time_step_share"}));
   ASSERT_EQ(t.rows(), 10u);
   const std::string line = small + " --steps 12 --array byte", rest = " --set relax.threshold=1e-14 "
                                                                       "--set relax.max_sweeps=20000";
