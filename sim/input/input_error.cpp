@@ -32,7 +32,7 @@ std::string lower(std::string text) {
 
 /// A key of hundreds of kilobytes is told by its beginning.
 std::string shortened(const std::string& key) {
-  constexpr std::size_t longest = 80;
+  constexpr std::size_t longest = 200;
   return key.size() > longest ? key.substr(0, longest) + "..." : key;
 }
 

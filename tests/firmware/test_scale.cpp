@@ -60,7 +60,7 @@ double least_power_above(double x) {
   return std::exp2(std::ceil(std::log2(x)));
 }
 
-// One neuron that no neighbour holds: its own weight says exactly where it goes. C lies dt^2 g below, the
+// A neuron that no neighbour holds goes exactly where its own weight says. C lies dt^2 g below, the
 // spring pulls with k dt^2 g, and what holds the weight is k + m / dt^2; h = dt^2 / 2.
 TEST(Scale, TheFirstGuessKnowsTheOwnWeight) {
   for (const double k : {1.0, 1e2, 1e4, 1e6}) {

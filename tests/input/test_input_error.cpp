@@ -62,7 +62,7 @@ TEST(InQuotes, showsBytesAsPrintableText) {
 
 TEST(InputError, ShortensAKeyThatNobodyWouldRead) {
   EXPECT_EQ(sentence("", 0, std::string(900'000, 'k'), "x", "y"),
-            std::string(80, 'k') + "...: found x, expected y");
+            std::string(200, 'k') + "...: found x, expected y");
 }
 
 } // namespace

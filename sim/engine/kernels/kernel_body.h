@@ -12,8 +12,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
   using typename KernelStage<Isa>::Words;
   using typename KernelStage<Isa>::Stage;
 
-  /// Lanes of weight 0 may read a word that another thread is writing (FastLayout::add_source): whatever they
-  /// see counts for nothing. So links are read and written word by word, in one piece each.
+  /// Lanes of weight 0 may read what another thread writes (FastLayout::add_source): it counts for nothing.
   static Words fetch(const std::uint32_t* plane, const Source& source, const std::uint32_t* far_slot) {
     if (source.kind == Source::together) return Isa::load_links(plane + source.base);
     if (source.kind == Source::near) return Isa::pick(plane + source.base, source.lane);
@@ -28,7 +27,6 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     const std::uint32_t* w = nullptr; ///< moves through the block's weights in the order in which they lie
     Sum<Isa, wide> x, y, z;
     Words xy = Isa::no_words();
-
     void add(Words links) {
       x.add(links, w);
       if constexpr (P > 1) y.add(links, w + 16);

@@ -80,7 +80,7 @@ TEST_F(CliClass, CoarseWordsFeelTheSprings) {
                                    c.time_step, c.k / 2, c.k / 2);
     for (const char* part : {"drive", "state", "link"})
       line += fmt::format(" --set 'formats.{}=fixed<{},2,SC_TRN_ZERO,SC_SAT>'", part, c.bits);
-    good(line + fmt::format(" --set 'formats.weight=fixed<{},1,SC_RND,SC_SAT>'", c.bits));
+    hopmesh(line + fmt::format(" --set 'formats.weight=fixed<{},1,SC_RND,SC_SAT>'", c.bits));
     const auto stats = read_json(at("r") / "stats.json");
     EXPECT_EQ(stats["outcome"], "finished") << line;
     EXPECT_GT(stats["sweeps"], 2 * 20) << line;
