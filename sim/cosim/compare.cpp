@@ -242,7 +242,8 @@ std::string text_of(const LevelReport& r) {
                       "    weights and biases differ by at most {:.2g} of the largest\n"
                       "  the free motions part (positions, m):\n",
                       largest(&Error::largest_output), largest(&Error::rms_output), largest(&Error::rounding),
-                      largest(&Error::stopping), undecided_text(r.rows), largest(&Error::energy_gap), largest(&Error::network));
+                      largest(&Error::stopping), undecided_text(r.rows), largest(&Error::energy_gap),
+                      largest(&Error::network));
   for (const Distance& d : r.distances)
     text += fmt::format("    after {:>5} step{}  rms {:.3g}  largest {:.3g}\n", d.steps,
                         d.steps == 1 ? " " : "s", d.rms, d.largest);

@@ -71,7 +71,7 @@ KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, st
     return !levels::stop_requested && differs_in_child(two, job);
   };
   const bool repeats = still(whole);
-  const KeptFinding kept{repeats ? shrink(whole, still) : whole, repeats};
+  KeptFinding kept{repeats ? shrink(whole, still) : whole, repeats};
   std::vector<std::string> lines = comments;
   lines.insert(lines.begin(), finding.text);
   write_finding(path, {fmt::format("seed {} case {}", seed, finding.number), kept.job}, two, lines);

@@ -24,6 +24,14 @@ bool has_mark(const ChartSeries& series) {
   return false;
 }
 
+bool has_failed(const Chart& chart) {
+  const auto failed = [](const ChartPoint& p) { return p.failed && drawable(p); };
+  for (const ChartSeries& series : chart.series)
+    for (const auto& ladder : series.ladders)
+      if (std::any_of(ladder.begin(), ladder.end(), failed)) return true;
+  return false;
+}
+
 std::vector<std::string> notes_of(const Chart& chart) {
   std::ptrdiff_t left_out = 0;
   for (const ChartSeries& series : chart.series)
@@ -225,7 +233,7 @@ class Drawing : public SvgCanvas {
     }
     if (!chart_.labels.empty())
       text(plot.right + 20, y, "at marks: " + chart_.labels, R"( fill="#666")"), y += 22;
-    if (!chart_.curves) text(plot.right + 20, y, "hollow: failed, no error to tell", R"( fill="#666")");
+    if (has_failed(chart_)) text(plot.right + 20, y, "hollow: failed, no error to tell", R"( fill="#666")");
   }
 
   const Chart& chart_;

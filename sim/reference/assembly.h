@@ -68,9 +68,9 @@ class Assembly {
   Network network(const Vector& V0) {
     for (Eigen::Index node = 0; node < nodes_of(mesh_); ++node)
       if (!mesh_.pinned[node]) link(node, node, -diagonal_[node]);
-    Matrix W = weights();
-    Vector I = -(W * V0) - gradient_;
-    return {std::move(W), std::move(I)};
+    const Matrix W = weights();
+    const Vector I = -(W * V0) - gradient_;
+    return {W, I};
   }
 
  private:

@@ -56,7 +56,7 @@ inline double fired(double s, double share, double V) {
 
 /// Nodes whose inputs are summed before the first of them fires: what a node's neurons wait for each other,
 /// the other nodes fill.
-constexpr std::size_t batch = 32;
+inline constexpr std::size_t batch = 32;
 
 template <std::size_t n>
 void fire_batch(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
@@ -84,24 +84,25 @@ void sweep_over(const BlockRows& rows, const Quad* bias, const std::uint32_t* no
   fire_batch<n>(rows, bias, node, count, V);
 }
 
-void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
+inline void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
   if (rows.components == 3) return inputs_of<3>(rows, bias, V, s);
   if (rows.components == 2) return inputs_of<2>(rows, bias, V, s);
   inputs_of<1>(rows, bias, V, s);
 }
 
-void sweep(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count, Quad* V) {
+inline void sweep(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
+                  Quad* V) {
   if (rows.components == 3) return sweep_over<3>(rows, bias, node, count, V);
   if (rows.components == 2) return sweep_over<2>(rows, bias, node, count, V);
   sweep_over<1>(rows, bias, node, count, V);
 }
 
-void turn(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction) {
+inline void turn(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction) {
   for (std::size_t k = 0; k < nodes; ++k)
     fours(direction)[k] = fours(step)[k] * fours(free)[k] + kept * fours(direction)[k];
 }
 
-void bend(std::size_t nodes, const DescentFields& at, double& curvature, double& most) {
+inline void bend(std::size_t nodes, const DescentFields& at, double& curvature, double& most) {
   Four bent{}, allowed{};
   for (std::size_t k = 0; k < nodes; ++k) {
     const Four d = fours(at.direction)[k];
@@ -112,7 +113,7 @@ void bend(std::size_t nodes, const DescentFields& at, double& curvature, double&
   most = total(allowed);
 }
 
-Standing walk(std::size_t nodes, const DescentFields& from, double far, Quad* V, Quad* s, Quad* free) {
+inline Standing walk(std::size_t nodes, const DescentFields& from, double far, Quad* V, Quad* s, Quad* free) {
   const Four none{}, one = none + 1;
   Four slope{}, inward{}, farthest{}, edge{};
   for (std::size_t k = 0; k < nodes; ++k) {

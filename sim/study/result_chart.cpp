@@ -119,15 +119,16 @@ void add_series(const Choice& c, const std::vector<PointGroup>& groups, pictures
 
 /// Whose points are not drawn, and why; points that failed within a group, too.
 void add_notes(const Choice& c, const std::vector<PointGroup>& groups, pictures::Chart& chart) {
-  std::map<std::string, std::size_t> missing;
+  std::map<std::pair<std::string, std::string>, std::size_t> missing;
   std::size_t within = 0;
   for (const PointGroup& group : groups) {
-    if (!c.is_drawn(group)) missing[c.method(group)] += group.rows.size();
+    const bool has_y = c.table.number(group.rows[0], c.y).has_value();
+    if (!c.is_drawn(group)) missing[{c.method(group), has_y ? c.x : c.y}] += group.rows.size();
     if (!group.told.empty()) within += group.rows.size() - group.told.size();
   }
-  for (const auto& [method, count] : missing)
-    chart.notes.push_back(fmt::format("Not drawn: {} of {}, without {} or {}",
-                                      input::with_noun(count, "point"), method, c.y, c.x));
+  for (const auto& [what, count] : missing)
+    chart.notes.push_back(fmt::format("Not drawn: {} of {}, without {}", input::with_noun(count, "point"),
+                                      what.first, what.second));
   if (within > 0)
     chart.notes.push_back(fmt::format("{} failed beside others of their mark and are in no median",
                                       input::with_noun(within, "point")));

@@ -1,9 +1,9 @@
 #include "sim/study/slurm.h"
 
 #include "sim/files/output_file.h"
-#include "sim/input/standard_streams.h"
 #include "sim/input/command_words.h"
 #include "sim/input/input_error.h"
+#include "sim/input/standard_streams.h"
 
 #include <cstdio>
 #include <cstdlib>

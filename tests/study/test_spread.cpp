@@ -27,9 +27,13 @@ files::CsvTable table() {
 
 TEST(SpreadOf, IsLeastMiddleAndLargest) {
   const Spread odd = spread_of({4, 1, 3}), even = spread_of({4, 1, 3, 2}), one = spread_of({7});
-  EXPECT_EQ(odd.least, 1), EXPECT_EQ(odd.median, 3), EXPECT_EQ(odd.largest, 4);
+  EXPECT_EQ(odd.least, 1);
+  EXPECT_EQ(odd.median, 3);
+  EXPECT_EQ(odd.largest, 4);
   EXPECT_EQ(even.median, 2.5) << "the mean of the two in the middle";
-  EXPECT_EQ(one.least, 7), EXPECT_EQ(one.median, 7), EXPECT_EQ(one.largest, 7);
+  EXPECT_EQ(one.least, 7);
+  EXPECT_EQ(one.median, 7);
+  EXPECT_EQ(one.largest, 7);
 }
 
 TEST(AxisColumns, AreWhatStandsBetweenPointAndMethod) {
@@ -53,7 +57,8 @@ TEST(GroupsOf, AreEqualInMethodAndAllOtherAxes) {
   const auto groups = groups_of(t, axis_columns(t, {"seed"}), "error", "cycles");
   ASSERT_EQ(groups.size(), 3u);
   EXPECT_THAT(groups[0].rows, ElementsAre(0, 1, 2));
-  EXPECT_EQ(groups[0].x.median, 3), EXPECT_EQ(groups[0].y.median, 20);
+  EXPECT_EQ(groups[0].x.median, 3);
+  EXPECT_EQ(groups[0].y.median, 20);
   EXPECT_EQ(groups[0].middle, 2u);
   EXPECT_THAT(groups[1].rows, ElementsAre(3, 4, 5));
   EXPECT_THAT(groups[1].told, ElementsAre(3, 5)) << "one diverged";

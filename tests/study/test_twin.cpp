@@ -39,7 +39,8 @@ TEST_F(TwinTest, StartsALastPlaceApartAndIsTheSameAtEveryCall) {
 // The probe kicks every node to one side or the other: a flat flag forgets its start at once.
 TEST_F(TwinTest, AFlagForgetsTheLastPlaceOfItsStart) {
   const std::vector<double> flag = apart(inputs_of("flag-225", {}), 20);
-  EXPECT_GT(flag.back(), 1e4 * flag.front());
+  EXPECT_GT(flag.front(), 1e-6) << "nothing but rounding says which way a flat flag leaves its plane";
+  EXPECT_GT(flag.back(), 100 * flag.front());
 }
 
 TEST_F(TwinTest, LeavesAPlaneAPlane) {

@@ -49,7 +49,7 @@ void add_size(CLI::App& program, int& exit_code) {
   verb->add_option("-j", o->workers, "so many trials at a time (as many as processors); changes no result")
       ->check(whole_number(1, 1024));
   verb->footer(
-      "Example:\n  hopmesh size two-nodes --error 0.001 --out out/two-nodes-size\n"
+      "Example:\n  hopmesh size two-nodes --steps 20 --error 0.001 --out out/two-nodes-size\n"
       "Exit: 0 done, 1 no array reaches the error or the time, 2 bad input, 130 interrupted (the same "
       "command goes on).");
   verb->callback([o, &exit_code] { exit_code = size(*o); });

@@ -179,7 +179,7 @@ struct Avx2 {
   }
   // A vector of words is read and written word by word as far as other threads can see. The language has no
   // name for that, so the thread sanitizer is told not to look.
-  [[gnu::no_sanitize("thread")]] static Words load_links(const std::uint32_t* at) {
+  __attribute__((no_sanitize("thread"))) static Words load_links(const std::uint32_t* at) {
     const auto* half = reinterpret_cast<const __m256i*>(at);
     return {{_mm256_loadu_si256(half), _mm256_loadu_si256(half + 1)}};
   }

@@ -74,7 +74,7 @@ struct Avx512 {
 
   // A vector of words is read and written word by word as far as other threads can see. The language has no
   // name for that, so the thread sanitizer is told not to look.
-  [[gnu::no_sanitize("thread")]] static Words load_links(const std::uint32_t* at) {
+  __attribute__((no_sanitize("thread"))) static Words load_links(const std::uint32_t* at) {
     return _mm512_loadu_si512(at);
   }
   static void store_links(std::uint32_t* at, Words x) { store_words(at, x); }

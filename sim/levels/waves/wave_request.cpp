@@ -1,9 +1,9 @@
 #include "sim/levels/waves/wave_request.h"
 
 #include "sim/files/output_file.h"
-#include "sim/input/standard_streams.h"
 #include "sim/input/input_error.h"
 #include "sim/input/number.h"
+#include "sim/input/standard_streams.h"
 #include "sim/scene/limits.h"
 
 #include <algorithm>

@@ -31,6 +31,12 @@ struct Target {
   std::string trouble;           ///< why there is no target, if so
 };
 
+std::string decided_text(double error, double time, std::int64_t steps) {
+  if (steps == 0) return fmt::format("{} m is not decided after a single step", error);
+  return fmt::format("the longest time for which {} m is decided is {:.4g} s (--steps {})", error, time,
+                     steps);
+}
+
 // An error that the last place of the start decides is met by luck or not at all.
 void expect_decided(double error, const Twin& twin, double time_step) {
   const std::vector<double>& apart = twin.apart();
@@ -39,9 +45,8 @@ void expect_decided(double error, const Twin& twin, double time_step) {
   const auto steps = lost - apart.begin();
   throw input::input_error(
       "", 0, "--error", fmt::format("{}", error),
-      fmt::format("at least {:.3g}: so far apart, in m, end two references that start a last place apart; "
-                  "the longest time for which {} m is decided is {:.4g} s (--steps {})",
-                  apart.back(), error, static_cast<double>(steps) * time_step, steps));
+      fmt::format("at least {:.3g}: so far apart, in m, end two references that start a last place apart; {}",
+                  apart.back(), decided_text(error, static_cast<double>(steps) * time_step, steps)));
 }
 
 // The end of the reference's free motion, or of the exact one, which lies in the folder.

@@ -100,9 +100,10 @@ std::string lane_lines(const SizeReport& r) {
   for (const SizeEvidence& e : r.found.evidence) {
     if (e.what != "lanes") continue;
     const spec::ArraySpec array = r.sizing.array_of(e.setting);
-    lines += fmt::format("  {:>3} lanes {:>14} cycles {:>4.0f} % bus {:>12.3g} s the slowest step {:>14} "
+    lines += fmt::format("  {:>8} {:>14} cycles {:>4.0f} % bus {:>12.3g} s the slowest step {:>14} "
                          "silicon bits\n",
-                         array.lanes, grouped(time_of(e.row).cycles()), 100 * time_of(e.row).bus_share(),
+                         with_noun(static_cast<std::uint64_t>(array.lanes), "lane"),
+                         grouped(time_of(e.row).cycles()), 100 * time_of(e.row).bus_share(),
                          slowest_step(e.row, array),
                          grouped(static_cast<std::uint64_t>(r.sizing.silicon_bits(e.setting))));
   }
@@ -118,7 +119,7 @@ std::string silicon_lines(const SizeReport& r) {
   if (arrays[1].lanes == arrays[2].lanes) arrays.pop_back();
   std::string lines = "Silicon\n";
   for (const spec::ArraySpec& array : arrays)
-    lines += fmt::format("  {:<12} {:>7} {:>14} memory bits {:>14} multiplier bits\n", array.name,
+    lines += fmt::format("  {:<12} {:>8} {:>14} memory bits {:>14} multiplier bits\n", array.name,
                          with_noun(static_cast<std::uint64_t>(array.lanes), "lane"),
                          grouped(run::memory_bits(*r.prepared.mesh, array).total()),
                          grouped(run::multiplier_bits(*r.prepared.mesh, array)));
