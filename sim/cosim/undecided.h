@@ -7,7 +7,7 @@ namespace hopmesh::cosim {
 
 /// An output further than this from the reference's, where the energies agree to this part of the step's
 /// fall, is undecided: both answers are as good.
-inline constexpr double far_output = 0.1, equal_energy = 0.01;
+inline constexpr double far_output = 0.1, equal_energy = 0.05;
 
 bool is_undecided(const levels::StepRow& row);
 
