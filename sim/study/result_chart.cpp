@@ -186,7 +186,7 @@ CsvTable table_of(const std::string& results) {
 // The folder has the study beside the results; where it has not, the folder's own name must do.
 std::string study_name(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
-  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   try {
     const std::string file = (folder / "study.toml").string();
     return study_of(input::read_whole_file(file, "a study file", most_bytes), name + ".toml").name;
