@@ -136,7 +136,7 @@ class Round {
   std::vector<std::size_t> fixed_;
   Arrays arrays_;
   ArrayJob job_;
-  spec::Relaxation run_; ///< the first one's
+  spec::Relaxation run_; ///< of the first fixed level
 };
 
 // Every fixed level against the first of them.

@@ -20,7 +20,7 @@ bool write_vectors(const std::filesystem::path& file, std::uint64_t cases, const
                    const levels::Level* level);
 
 struct VectorsJudged {
-  std::uint64_t cases = 0, lines = 0; ///< that are right
+  std::uint64_t cases = 0, lines = 0; ///< judged right
   std::string wrong;                  ///< the first wrong line, in words; it ends the judgement
   bool interrupted = false;
 };

@@ -28,7 +28,7 @@ class BusArray {
   Codes outputs() const;
   /// Every capability register, in the order of their addresses.
   std::vector<std::uint32_t> capabilities() const;
-  /// That the host has held the bus until now.
+  /// Cycles in which the host has held the bus until now.
   std::uint64_t bus_cycles() const;
 
  private:

@@ -24,7 +24,7 @@ struct Total {
 struct Curve {
   const char* name = nullptr; ///< null: this is no curve
   const char* unit = "";
-  double factor = 1; ///< as of a total
+  double factor = 1; ///< as `Total::factor`
 };
 
 } // namespace hopmesh::levels

@@ -31,7 +31,7 @@ struct StepRow {
   bool converged = false;
   /// Of a step that did not converge: 1 where outputs swing between two states for ever.
   double alternation = 0;
-  double input_left = 0;           ///< both: sim/levels/left_over.h
+  double input_left = 0;           ///< see sim/levels/left_over.h
   std::optional<double> fall_left; ///< where the reference was asked or answers itself
   std::uint64_t bus_cycles = 0, clipped = 0;
   std::optional<ReferenceError> error; ///< where the reference was asked

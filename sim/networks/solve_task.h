@@ -12,7 +12,7 @@ namespace hopmesh::networks {
 struct SolveTask {
   std::string name;
   NetworkData data;
-  std::string rule;                                               ///< that it wants; empty: the array's
+  std::string rule; ///< output stage that the network wants; empty: the array's
   std::function<std::string(const std::vector<double>&)> verdict; ///< of outputs; empty: nobody knows
 };
 

@@ -10,7 +10,7 @@ namespace hopmesh::pictures {
 /// them long. Faces and springs within a cube are gone, and of several between the same cubes one is left.
 RunView coarse_view(const RunView& view, double cubes);
 
-/// All frames of a mesh merged so, with everything else that a view tells.
+/// A view whose mesh is merged so in all its frames; what else the view tells stays.
 RunView light_view(const RunView& view, double cubes);
 
 } // namespace hopmesh::pictures

@@ -10,7 +10,7 @@ struct FlightPlan {
   const levels::Level* level = nullptr;
   std::string command;     ///< that repeats it
   bool check = false;      ///< ask the reference beside every step
-  std::int64_t steps = 0;  ///< to do instead of the scene's; 0: the scene's
+  std::int64_t steps = 0;  ///< in place of the scene's number of steps; 0: the scene's
   std::uint64_t every = 0; ///< a checkpoint after so many steps; 0: as before, or only when interrupted
   levels::PortRequest port;
 };
@@ -23,7 +23,7 @@ class Flight {
   Flight(const Flight&) = delete;
   Flight& operator=(const Flight&) = delete;
 
-  /// All steps that are left, until the user stops them, and all files. Throws files::WriteError.
+  /// Does the steps that are left, until the user stops them, and writes all files. Throws files::WriteError.
   RunResult fly();
   /// The end in lines for people.
   std::string text_of(const RunResult& result) const;

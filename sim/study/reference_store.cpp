@@ -1,32 +1,18 @@
 #include "sim/study/reference_store.h"
 
-#include "sim/files/npy.h"
 #include "sim/files/running_check.h"
 #include "sim/levels/reference_mover.h"
 #include "sim/run/checkpoint.h"
+#include "sim/study/kept_positions.h"
 
+#include <algorithm>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace hopmesh::study {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-// What the motion depends on: of the array, who fires when, and whether outputs are signs.
-std::uint64_t hash_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                      const std::vector<double>& times, std::uint64_t steps) {
-  const std::uint64_t built = run::mesh_hash(mesh.mesh());
-  files::RunningCheck check;
-  const std::string text =
-      fmt::format("{} {} {} {} {}", built, static_cast<int>(inputs.array.schedule),
-                  static_cast<int>(inputs.array.output), steps, scene::scene_text(inputs.scene));
-  check.add(text.data(), text.size());
-  check.add(times.data(), times.size() * sizeof(double));
-  return check.value();
-}
-
+/// Empty positions where the motion ended before.
 FreeMotion fly(const scene::Inputs& inputs, const levels::BuiltMesh& mesh, const std::vector<double>& times,
                std::uint64_t steps, const std::atomic<bool>& stop) {
   levels::ReferenceMover motion(inputs.scene, mesh, inputs.array);
@@ -37,39 +23,45 @@ FreeMotion fly(const scene::Inputs& inputs, const levels::BuiltMesh& mesh, const
   return free;
 }
 
-bool is_whole(const FreeMotion& free) {
-  bool whole = !free.last.empty();
-  for (const run::Positions& at : free.at) whole = whole && !at.empty();
-  return whole;
-}
-
-// Two points may fly the same one at the same time: each writes a file of its own, the last name wins.
-void save(const fs::path& file, const FreeMotion& free, std::size_t nodes) {
-  const fs::path own = file.string() + fmt::format(".{}", getpid());
-  files::NpyWriter<double> positions(own, {nodes, 3});
-  for (const run::Positions& at : free.at) positions.append(at);
-  positions.append(free.last);
-  positions.commit();
-  fs::rename(own, file);
-}
-
-FreeMotion saved(const fs::path& file) {
-  FreeMotion free;
-  files::NpyReader<double> positions(file);
-  for (std::size_t k = 0; k + 1 < positions.rows(); ++k) free.at.push_back(positions.row(k));
-  free.last = positions.row(positions.rows() - 1);
-  return free;
+/// As one motion, its end behind the times; its floor is 0, because it is what others are held against.
+/// Nothing where a position is missing.
+levels::ExactMotion whole(const FreeMotion& free) {
+  levels::ExactMotion all{free.at, std::vector<double>(free.at.size() + 1, 0.0)};
+  all.positions.push_back(free.last);
+  const bool missing = std::any_of(all.positions.begin(), all.positions.end(),
+                                   [](const run::Positions& at) { return at.empty(); });
+  return missing ? levels::ExactMotion() : all;
 }
 
 } // namespace
 
+std::uint64_t reference_hash(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
+                             const std::vector<double>& times, std::uint64_t steps) {
+  files::RunningCheck check;
+  const std::string text =
+      fmt::format("{} {} {} {} {}", run::mesh_hash(mesh.mesh()), static_cast<int>(inputs.array.schedule),
+                  static_cast<int>(inputs.array.output), steps, scene::scene_text(inputs.scene));
+  check.add(text.data(), text.size());
+  check.add(times.data(), times.size() * sizeof(double));
+  return check.value();
+}
+
 FreeMotion ReferenceStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                               const std::vector<double>& times, std::uint64_t steps,
                               const std::atomic<bool>& stop) const {
-  const fs::path file = folder_ / fmt::format("reference-{:016x}.npy", hash_of(inputs, mesh, times, steps));
-  if (fs::exists(file)) return saved(file);
-  FreeMotion free = fly(inputs, mesh, times, steps, stop);
-  if (is_whole(free)) save(file, free, mesh.nodes());
+  const std::uint64_t hash = reference_hash(inputs, mesh, times, steps);
+  std::vector<double> with_end = times;
+  with_end.push_back(static_cast<double>(steps) * inputs.scene.motion.time_step);
+  FreeMotion free;
+  levels::ExactMotion kept =
+      kept_positions(folder_ / fmt::format("reference-{:016x}", hash), with_end, mesh.nodes(), [&] {
+        free = fly(inputs, mesh, times, steps, stop);
+        return whole(free);
+      });
+  if (kept.positions.empty()) return free;
+  free.last = std::move(kept.positions.back());
+  kept.positions.pop_back();
+  free.at = std::move(kept.positions);
   return free;
 }
 

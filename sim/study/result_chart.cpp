@@ -139,7 +139,8 @@ void add_notes(const Choice& c, const std::vector<PointGroup>& groups, pictures:
       "A mark is the median over {}, its bars reach from the least to the largest", fmt::join(names, ", ")));
 }
 
-/// The least error of a method's finished points, as a line: nobody with the same step can do better.
+/// The least error of a method's finished points, as a line. An answer that stops short of the exact step may
+/// lie nearer to the truth: the line is no bound.
 void add_line(const CsvTable& table, const std::string& x, const char* method, const char* name,
               pictures::Chart& chart) {
   double least = 0;

@@ -27,7 +27,7 @@ SafeFolder::SafeFolder(std::filesystem::path folder, const char* rows, const Fol
   expect_sound_rows();
 }
 
-// All of them at once, so that one more start makes them all again.
+// Damaged rows are set aside all at once, so that one more start makes them all again.
 void SafeFolder::expect_sound_rows() const {
   std::vector<std::string> faults;
   for (const auto& entry : std::filesystem::directory_iterator(rows_)) {

@@ -1,9 +1,8 @@
 #include "sim/study/sensitivity_store.h"
 
-#include "sim/files/running_check.h"
 #include "sim/levels/interrupt.h"
-#include "sim/run/checkpoint.h"
 #include "sim/study/claimed_table.h"
+#include "sim/study/reference_store.h"
 #include "sim/study/twin.h"
 
 #include <fmt/format.h>
@@ -15,18 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> columns{"time", "sensitivity"};
-
-// What the reference's motion depends on: of the array, who fires when, and whether outputs are signs.
-std::uint64_t hash_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
-                      const std::vector<double>& times) {
-  files::RunningCheck check;
-  const std::string text =
-      fmt::format("{} {} {} {}", run::mesh_hash(mesh.mesh()), static_cast<int>(inputs.array.schedule),
-                  static_cast<int>(inputs.array.output), scene::scene_text(inputs.scene));
-  check.add(text.data(), text.size());
-  check.add(times.data(), times.size() * sizeof(double));
-  return check.value();
-}
 
 std::vector<Maybe> saved(const fs::path& file, std::size_t times) {
   const files::CsvTable table = files::read_kept(file, columns);
@@ -46,10 +33,12 @@ std::vector<Maybe> saved(const fs::path& file, std::size_t times) {
 
 std::vector<Maybe> SensitivityStore::at(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                                         const std::vector<double>& times) const {
-  const fs::path file = folder_ / fmt::format("sensitivity-{:016x}.csv", hash_of(inputs, mesh, times));
+  const auto steps = static_cast<std::uint64_t>(inputs.scene.motion.steps);
+  const fs::path file =
+      folder_ / fmt::format("sensitivity-{:016x}.csv", reference_hash(inputs, mesh, times, steps));
   std::optional<files::CsvWriter> table = claim_table(file, columns);
   if (!table) return levels::stop_requested ? std::vector<Maybe>(times.size()) : saved(file, times.size());
-  const std::vector<Maybe> at = sensitivity_of(inputs, mesh, times, levels::stop_requested);
+  std::vector<Maybe> at = sensitivity_of(inputs, mesh, times, levels::stop_requested);
   if (levels::stop_requested) return at;
   for (std::size_t k = 0; k < times.size(); ++k) table->cell(times[k]).cell(at[k]).end_row();
   table->commit();

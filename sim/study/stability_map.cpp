@@ -95,7 +95,7 @@ class MapOfStudy {
     return map_.panels.back();
   }
 
-  /// Whoever edits results.csv may write anything there.
+  /// A cell of results.csv, in which a user may have written anything.
   input::InputError error(std::size_t row, const std::string& key, const std::string& found) const {
     return input::input_error("results.csv", static_cast<int>(row) + 2, key, input::in_quotes(found),
                               "what the study can come to");

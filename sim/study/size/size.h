@@ -14,7 +14,7 @@ std::vector<std::string> size_judges();
 
 struct SizeOrder {
   input::InputWords words; ///< that name scene and array
-  std::int64_t steps = 0;  ///< instead of the scene's; 0: the scene's
+  std::int64_t steps = 0;  ///< in place of the scene's number of steps; 0: the scene's
   double error = 0;        ///< rms of positions at the end, m
   double time_per_step = 0;
   std::string against = size_judges().front();

@@ -6,7 +6,7 @@
 
 namespace hopmesh::study {
 
-/// All of it must outlive the report.
+/// Everything that a member refers to must outlive the report.
 struct SizeReport {
   const SizeOrder& order;
   const levels::Prepared& prepared;
@@ -16,7 +16,7 @@ struct SizeReport {
   const std::filesystem::path& folder;
   double reached, floor;     ///< of the truth: how near double itself comes, and how far it is known, m
   double sensitivity;        ///< of the motion to the last place of its start, m
-  std::uint64_t most_sweeps; ///< that meet the order
+  std::uint64_t most_sweeps; ///< limit of sweeps of a step
 };
 
 /// size.toml, the array, and size.csv, the evidence.

@@ -112,6 +112,28 @@ TEST_F(CliKept, TruthsThatAreNotAsTheyWere) {
   good("sweep s.toml --out s");
 }
 
+// What all points are measured against, beside the truth.
+TEST_F(CliKept, ReferencesThatAreNotAsTheyWere) {
+  write_text(at("s.toml"),
+             "scene = \"two-nodes\"\nsteps = 10\ntimes = [0.1]\n[axes]\n\"mesh.mass\" = [1.0]\n");
+  const std::string line = "sweep s.toml --out s";
+  good(line);
+  for (const char* kept : {"reference-", "sensitivity-"}) {
+    const std::string table = some("s", kept, ".csv");
+    std::filesystem::remove(at("s/points/0.csv"));
+    write_text(at(table), "floor\n");
+    EXPECT_THAT(refused(line), HasSubstr(table + ":1: found other columns"));
+    good(line);
+  }
+  const std::string positions = some("s", "reference-", ".npy");
+  std::string bytes = content_of(at(positions));
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  write_text(at(positions), bytes);
+  std::filesystem::remove(at("s/points/0.csv"));
+  EXPECT_THAT(refused(line), HasSubstr("damaged values"));
+  good(line);
+}
+
 class CliWorkers : public CliKept {
  protected:
   CliWorkers() {
