@@ -18,7 +18,7 @@ struct FreeMotion {
   run::Positions last;
 };
 
-/// The methods a study may name, given by whoever can see them all. A method is a Motion: levels of the
+/// The methods a study may name, given by whoever can see them all. A method is a Mover: levels of the
 /// array, the reference, and integrators alike.
 struct Methods {
   std::vector<std::string> names;
