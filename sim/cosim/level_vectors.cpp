@@ -10,10 +10,11 @@ namespace hopmesh::cosim {
 
 namespace {
 
-/// Arrays of a level for cases that come in the same order twice: SystemC's are all made before one is used.
-class Arrays {
+/// CaseArrays of a level for cases that come in the same order twice: SystemC's are all made before one is
+/// used.
+class CaseArrays {
  public:
-  explicit Arrays(const levels::Level& level) : level_(level) {}
+  explicit CaseArrays(const levels::Level& level) : level_(level) {}
   bool ahead() const { return level_.made_ahead; }
   void expect(const ArrayJob& job) { made_.push_back(level_.make_port(job.array, job.topology, {})); }
   const levels::ArrayPort& next(const ArrayJob& job) {
@@ -49,7 +50,7 @@ VectorCase random_case(std::uint64_t seed) {
 
 bool write_vectors(const std::filesystem::path& path, std::uint64_t cases, const CaseMaker& make,
                    const levels::Level* level) {
-  std::optional<Arrays> arrays;
+  std::optional<CaseArrays> arrays;
   if (level) arrays.emplace(*level);
   for (std::uint64_t k = 0; k < cases && arrays && arrays->ahead(); ++k) arrays->expect(make(k).job);
   files::check_writable(std::filesystem::absolute(path).parent_path(), 1 << 20);
@@ -64,7 +65,7 @@ bool write_vectors(const std::filesystem::path& path, std::uint64_t cases, const
 }
 
 VectorsJudged judge_vectors(const std::string& file, const levels::Level& level) {
-  Arrays arrays(level);
+  CaseArrays arrays(level);
   VectorCase a_case;
   if (arrays.ahead())
     for (VectorReader reader(file); reader.next(a_case);) arrays.expect(a_case.job);

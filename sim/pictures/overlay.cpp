@@ -21,9 +21,9 @@ std::string png_of(const files::GreyPicture& picture) {
 // The middle of the first pixel stands half a pixel inside the picture.
 std::string path_of(const std::vector<OverlayLine>& lines, const char* colour, double width) {
   std::string d;
-  for (const OverlayLine& line : lines)
-    d += fmt::format("M{:.3f} {:.3f}L{:.3f} {:.3f}", line.from[0] + 0.5, line.from[1] + 0.5, line.to[0] + 0.5,
-                     line.to[1] + 0.5);
+  for (const OverlayLine& edge : lines)
+    d += fmt::format("M{:.3f} {:.3f}L{:.3f} {:.3f}", edge.from[0] + 0.5, edge.from[1] + 0.5, edge.to[0] + 0.5,
+                     edge.to[1] + 0.5);
   return fmt::format(
       "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" fill=\"none\"/>\n", d,
       colour, width);

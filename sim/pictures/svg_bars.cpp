@@ -44,9 +44,9 @@ Axis axis_of_lengths(const StackedBars& bars) {
   return {first, std::max(first + 1, std::ceil(std::log10(*most))), alone.bottom, alone.top, true};
 }
 
-class Drawing : public SvgCanvas {
+class BarDrawing : public SvgCanvas {
  public:
-  explicit Drawing(const StackedBars& bars)
+  explicit BarDrawing(const StackedBars& bars)
       : SvgCanvas(1180, 520, whole.left, bars.title, bars.note), bars_(bars) {
     draw_stacks(axis_of_stacks(bars));
     draw_lengths(axis_of_lengths(bars));
@@ -123,7 +123,7 @@ class Drawing : public SvgCanvas {
 } // namespace
 
 std::string svg_of(const StackedBars& bars) {
-  return Drawing(bars).finish();
+  return BarDrawing(bars).finish();
 }
 
 } // namespace hopmesh::pictures

@@ -56,9 +56,9 @@ Axis axis_over(const std::vector<double>& values, double from, double to) {
   return {low - missing / 2, high + missing / 2, from, to, true};
 }
 
-class Drawing : public SvgCanvas {
+class ChartDrawing : public SvgCanvas {
  public:
-  explicit Drawing(const Chart& chart)
+  explicit ChartDrawing(const Chart& chart)
       : SvgCanvas(1100, height_for(notes_of(chart).size()), plot.left, chart.title,
                   chart.curves ? "lower left is better"
                                : "lower left is better; dashed: nobody is better in both"),
@@ -203,10 +203,10 @@ class Drawing : public SvgCanvas {
   // Above the mark on either side, else below it, else nowhere: a label in another's way tells nothing.
   void draw_label(const ChartPoint& p) {
     const double x = p.failed ? failed_at : x_.at(p.x), y = y_.at(p.y);
-    const double wide = letter_width * static_cast<double>(p.label.size());
+    const double length = letter_width * static_cast<double>(p.label.size());
     for (const double base : {y - 7, y + 7 + label_height})
-      for (const double left : {x + 6, x - 6 - wide}) {
-        if (!has_room({left, base - label_height, left + wide, base})) continue;
+      for (const double left : {x + 6, x - 6 - length}) {
+        if (!has_room({left, base - label_height, left + length, base})) continue;
         text(left, base, p.label, R"( class="label" font-size="11" fill="#444")");
         return;
       }
@@ -255,7 +255,7 @@ std::vector<ChartPoint> pareto_front(const std::vector<ChartPoint>& points) {
 }
 
 std::string svg_of(const Chart& chart) {
-  return Drawing(chart).finish();
+  return ChartDrawing(chart).finish();
 }
 
 } // namespace hopmesh::pictures

@@ -28,9 +28,9 @@ double bottom_of(const CellMap& map) {
   return top + double(rows) * pitch_y;
 }
 
-class Drawing : public SvgCanvas {
+class MapDrawing : public SvgCanvas {
  public:
-  explicit Drawing(const CellMap& map)
+  explicit MapDrawing(const CellMap& map)
       : SvgCanvas(std::max(640.0, right_of(map)), bottom_of(map) + 88, left, map.title), map_(map),
         cell_x_(side / double(map.xs.size())), cell_y_(side / double(map.ys.size())) {
     const std::size_t columns = columns_for(map.panels.size());
@@ -134,7 +134,7 @@ double place_among(const std::vector<double>& values, double value) {
 }
 
 std::string svg_of(const CellMap& map) {
-  return Drawing(map).finish();
+  return MapDrawing(map).finish();
 }
 
 } // namespace hopmesh::pictures

@@ -257,12 +257,13 @@ Vector no_outputs(const scene::Mesh& mesh, const State&, double) {
   return Vector::Zero(components(mesh) * nodes_of(mesh));
 }
 
-Network network_about(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double scale,
-                      const Vector& V0) {
+Network potential_network(const scene::Mesh& mesh, const StepParameters& motion, const State& state,
+                          double scale, const Vector& V0) {
   return network(mesh, increment(mesh, motion, state), scale, V0);
 }
 
-Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
+Step advance_potential(const scene::Mesh& mesh, const StepParameters& motion, const Order& order,
+                       State& state) {
   const Increment about = increment(mesh, motion, state);
   Step step;
   step.predicted = about.predicted;
@@ -280,9 +281,10 @@ Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const O
 
 } // namespace
 
-const Formulation backward_euler{"backward_euler", false,         backward_euler_increment,
-                                 expansion_point,  network_about, advance_once};
-const Formulation bdf2{"bdf2", true, bdf2_increment, expansion_point, network_about, advance_once};
-const Formulation statics{"static", false, static_increment, no_outputs, network_about, advance_once};
+const Formulation backward_euler{
+    "backward_euler", false, backward_euler_increment, expansion_point, potential_network, advance_potential};
+const Formulation bdf2{"bdf2", true, bdf2_increment, expansion_point, potential_network, advance_potential};
+const Formulation statics{"static",         false, static_increment, no_outputs, potential_network,
+                          advance_potential};
 
 } // namespace hopmesh::reference

@@ -75,7 +75,7 @@ void move(const scene::Mesh& mesh, const StepParameters& motion, const Step& ste
 
 // docs/method/theory.md, section 4 (probe). With more than one expansion the step reports the last one,
 // sweeps summed: from V0, its network comes to rest at relaxation.V.
-Step advance_once(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
+Step advance_probe(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
   Step step;
   step.predicted = predict(mesh, motion, state);
   step.relaxation.V = expansion_point(mesh, state);
@@ -94,7 +94,7 @@ Vector start(const scene::Mesh& mesh, const State& state, double) {
   return expansion_point(mesh, state);
 }
 
-Network network_about(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double,
+Network probe_network(const scene::Mesh& mesh, const StepParameters& motion, const State& state, double,
                       const Vector& V0) {
   return network(mesh, motion, predict(mesh, motion, state), V0);
 }
@@ -123,6 +123,6 @@ Vector expansion_point(const scene::Mesh& mesh, const State& state) {
   return V0;
 }
 
-const Formulation probe{"probe", false, nullptr, start, network_about, advance_once};
+const Formulation probe{"probe", false, nullptr, start, probe_network, advance_probe};
 
 } // namespace hopmesh::reference

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A row a time: how far the positions are known, and a hash of them; they stand in a file beside it.
-const std::vector<std::string> columns{"time", "floor", "positions"};
+const std::vector<std::string> position_columns{"time", "floor", "positions"};
 
 std::string hash_text(const std::vector<double>& positions) {
   return fmt::format("{:016x}", levels::hash_on(0, positions.data(), positions.size()));
@@ -40,7 +40,7 @@ class Saved {
       : file_(stem.string() + ".csv"), times_(times), nodes_(nodes) {}
 
   ExactMotion motion() const {
-    const files::CsvTable table = files::read_kept(file_, columns);
+    const files::CsvTable table = files::read_kept(file_, position_columns);
     if (table.rows.size() != times_.size())
       throw damaged(0, "", fmt::format("{} rows", table.rows.size()), std::to_string(times_.size()));
     ExactMotion motion;
@@ -85,7 +85,7 @@ class Saved {
 
 ExactMotion kept_positions(const fs::path& stem, const std::vector<double>& times, std::size_t nodes,
                            const std::function<ExactMotion()>& work_out) {
-  std::optional<files::CsvWriter> table = claim_table(stem.string() + ".csv", columns);
+  std::optional<files::CsvWriter> table = claim_table(stem.string() + ".csv", position_columns);
   if (!table) return levels::stop_requested ? ExactMotion() : Saved(stem, times, nodes).motion();
   ExactMotion motion = work_out();
   if (!motion.positions.empty()) save(*table, stem, times, motion, nodes);

@@ -15,8 +15,8 @@ namespace {
 constexpr int batches = 40, batch_size = 250, slower_batch_size = 50;
 
 /// A device beside the job it is to do and what the slow array makes of it.
-struct Bench {
-  Bench(std::uint64_t seed_of_job, const ArrayJob& a_job)
+struct NetworkBench {
+  NetworkBench(std::uint64_t seed_of_job, const ArrayJob& a_job)
       : seed(seed_of_job), job(a_job), expected(run_slow_array(job, Keep::every_sweep)),
         dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
 
@@ -38,13 +38,13 @@ struct Bench {
   Dut dut;
 };
 
-using Benches = std::vector<std::unique_ptr<Bench>>;
+using Benches = std::vector<std::unique_ptr<NetworkBench>>;
 
 Benches make_benches(int batch, int size = batch_size) {
   Benches benches;
   for (int k = 0; k < size; ++k) {
     const std::uint64_t seed = 1 + static_cast<std::uint64_t>(batch) * batch_size + k;
-    benches.push_back(std::make_unique<Bench>(seed, random_job(seed)));
+    benches.push_back(std::make_unique<NetworkBench>(seed, random_job(seed)));
   }
   return benches;
 }
@@ -103,7 +103,7 @@ TEST(CosimPresets, EveryPresetOnASmallFlag) {
       ArrayJob job = random_codes(dice, array, grid_topology(5, 4, true));
       job.threshold = 1;
       job.max_sweeps = 40;
-      benches.push_back(std::make_unique<Bench>(seed, job));
+      benches.push_back(std::make_unique<NetworkBench>(seed, job));
     }
   run_all(benches, systemc::Waking::by_phase);
 }

@@ -10,14 +10,14 @@ namespace {
 
 using engine::ClockedEngine;
 
-const std::uint32_t* words(const std::vector<std::int32_t>& codes) {
+const std::uint32_t* as_words(const std::vector<std::int32_t>& codes) {
   return reinterpret_cast<const std::uint32_t*>(codes.data());
 }
 
 template <typename Array> void load_codes(Array& array, const ArrayJob& job) {
-  array.write_weights(0, words(job.weight), job.weight.size());
-  array.write_biases(0, words(job.bias), job.bias.size());
-  array.write_outputs(0, words(job.start), job.start.size());
+  array.write_weights(0, as_words(job.weight), job.weight.size());
+  array.write_biases(0, as_words(job.bias), job.bias.size());
+  array.write_outputs(0, as_words(job.start), job.start.size());
 }
 
 void expect_sequencer(const ClockedEngine& e, const systemc::Sequencer& s) {
@@ -68,8 +68,8 @@ void expect_end(const ClockedEngine& e, const ArrayJob& job, const std::vector<s
   ClockedEngine strides(job.array, job.topology);
   load_codes(fast, job);
   load_codes(strides, job);
-  fast.write_outputs(0, words(start), start.size());
-  strides.write_outputs(0, words(start), start.size());
+  fast.write_outputs(0, as_words(start), start.size());
+  strides.write_outputs(0, as_words(start), start.size());
   const spec::Relaxation r = fast.run(job.threshold, job.max_sweeps);
   strides.start(job.threshold, job.max_sweeps);
   while (strides.busy()) strides.step(1 + dice.below(50));

@@ -15,7 +15,7 @@ namespace {
 
 using reference::Vector;
 
-constexpr double wanted = 1e-10; // of V
+constexpr double closeness = 1e-10; // of V
 constexpr std::uint32_t patience = 4000;
 
 double largest(const Vector& V) {
@@ -55,11 +55,11 @@ class RestOfScene : public ::testing::TestWithParam<std::string> {
     EXPECT_LT(largest(twin.swept(order, start, 50) - reference::relax(network, order, start, -1, 50).V),
               1e-12);
     if (!definite) return;
-    EXPECT_LT(largest(missing(network, rest.V)), wanted);
-    EXPECT_LT(largest(reference::rest_from(twin, Vector::Zero(start.size())).V - rest.V), wanted);
+    EXPECT_LT(largest(missing(network, rest.V)), closeness);
+    EXPECT_LT(largest(reference::rest_from(twin, Vector::Zero(start.size())).V - rest.V), closeness);
     const reference::Relaxation slow = reference::relax(network, order, start, 1e-17, patience);
     if (slow.converged) {
-      EXPECT_LT(largest(slow.V - rest.V), wanted);
+      EXPECT_LT(largest(slow.V - rest.V), closeness);
     }
   }
 

@@ -2,6 +2,7 @@
 #include "sim/reference/block_network.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/random_inputs.h"
+#include "tests/reference/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +12,6 @@ namespace {
 using namespace reference;
 
 constexpr double rounding = 1e-13; // of outputs up to 1, after some sweeps of some dozen terms
-
-double difference(const Vector& a, const Vector& b) {
-  return a.size() == 0 ? 0 : (a - b).cwiseAbs().maxCoeff();
-}
 
 /// Component by component of every other node, then of those between: as a coloured array fires a ring.
 Order by_parity(std::uint32_t nodes, std::uint32_t n) {

@@ -2,6 +2,7 @@
 #include "sim/reference/reference.h"
 #include "tests/reference/flags.h"
 #include "tests/reference/random_inputs.h"
+#include "tests/reference/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +10,6 @@ namespace hopmesh::tests {
 namespace {
 
 using namespace reference;
-
-Eigen::Vector3d at(const Vector& all, std::size_t node) {
-  return all.segment<3>(3 * node);
-}
 
 TEST(ReferenceFlight, FreeFallIsExact) {
   // gamma = 0 takes the springs' kicks away, dyadic numbers the rounding: v = k dt f, x = x0 + dt^2 f k (k -

@@ -3,6 +3,7 @@
 #include "tests/reference/flags.h"
 #include "tests/reference/plain_energy.h"
 #include "tests/reference/random_inputs.h"
+#include "tests/reference/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -11,20 +12,16 @@ namespace {
 
 using namespace reference;
 
-Eigen::Vector3d at(const Vector& all, std::size_t node) {
-  return all.segment<3>(3 * node);
-}
-
 Eigen::Vector3d output(const scene::Mesh& mesh, const Vector& V, std::size_t node) {
   if (mesh.planar) return {V[2 * node], 0, V[2 * node + 1]};
   return at(V, node);
 }
 
 /// Node 1 two below the pin on a spring of length 1, dt = 1 so that h = 1/2; friction 1/2; one sweep a step.
-struct Hanging {
+struct HangingNode {
   scene::Mesh mesh;
   StepParameters motion{};
-  Hanging() {
+  HangingNode() {
     mesh.position = {{0, 0, 0}, {0, 0, -2}};
     mesh.pinned = {true, false};
     mesh.springs = {{{0, 1}, 1, 1}};
@@ -68,7 +65,7 @@ TEST(ReferenceMotion, IsReadFromTheScene) {
 
 TEST(ReferenceMotion, PredictionKeepsTheRememberedShareOfTheAcceleration) {
   // dt = 1/2, h = 1/8, memory 1/2: 1 + 2/2 + 16/16 = 3.
-  Hanging hanging;
+  HangingNode hanging;
   hanging.motion.time_step = 0.5;
   hanging.motion.acceleration_memory = 0.5;
   State state = initial_state(hanging.mesh);
@@ -104,7 +101,7 @@ TEST(ReferenceMotion, OneStepOfTwoNodesByHand) {
   // The network of ReferenceNetwork.OfOneSpringByHand: only z moves. s = 5/2 - 1 = 3/2, N = 5/2 + 1 = 7/2, u
   // = 3/7, R = 2: V = -1 + 6/7 = -1/7, so the direction is still down. At C + h dahat the spring is 5/2 long:
   // dE = (3/2)^2 - 1^2 = 5/4, a = -sqrt(4 * 5/4) = -sqrt 5.
-  Hanging hanging;
+  HangingNode hanging;
   State state = initial_state(hanging.mesh);
   const Step step = advance(hanging.mesh, hanging.motion, one_by_one(6), state);
   const double a = -std::sqrt(5.0);
@@ -123,7 +120,7 @@ TEST(ReferenceMotion, UpdateOrderByHand) {
   // Whatever direction d and change dE the probe finds (both are read back), from x = -2, v = 1/4, a = 8,
   // memory 1/2: a first, x with the old v and the new a, v with the new a, friction, then the force.
   for (const bool on_acceleration : {false, true}) {
-    Hanging hanging;
+    HangingNode hanging;
     hanging.motion.acceleration_memory = 0.5;
     hanging.motion.force_on_acceleration = on_acceleration;
     hanging.motion.force = {0, 0, -3};
@@ -201,7 +198,7 @@ TEST(ReferenceMotion, ANodeWithoutDirectionGetsNoKick) {
   // From z = -1 at speed 1 the node arrives at the pin, where its spring has no length: C = 0. Then I = 0 and
   // u = -V: each sweep squares |V|, so that after eight nothing is left of (0.6, 0, -0.8). The energy does
   // change, by -1.
-  Hanging hanging;
+  HangingNode hanging;
   hanging.mesh.position[1] = {0, 0, -1};
   hanging.mesh.springs[0].rest_length = 0;
   hanging.motion.beta = 0;

@@ -11,16 +11,16 @@ namespace {
 using namespace reference;
 
 /// A step about to be expanded.
-struct Case {
+struct NetworkCase {
   scene::Mesh mesh;
   StepParameters motion;
   Vector C, V0;
 };
 
-Case random_case(Random& random, int k) {
+NetworkCase random_network(Random& random, int k) {
   const bool planar = k % 2 == 1;
   const double rest_factor[] = {1, 0, 3};
-  Case c;
+  NetworkCase c;
   c.mesh = random_mesh(random, 5 + random.below(4), planar, rest_factor[k % 3]);
   c.motion = random_motion(random);
   c.C = predict(c.mesh, c.motion, random_state(random, c.mesh));
@@ -34,7 +34,7 @@ struct Scale {
   Vector curvature, slope; ///< [nodes]
 };
 
-Scale scale_of(const Case& c) {
+Scale scale_of(const NetworkCase& c) {
   const auto nodes = static_cast<Eigen::Index>(c.mesh.nodes());
   const double h = c.motion.time_step * c.motion.time_step / 2;
   Scale scale{Vector::Zero(nodes), Vector::Zero(nodes)};
@@ -55,7 +55,7 @@ Scale scale_of(const Case& c) {
   return scale;
 }
 
-Eigen::Index node_of(const Case& c, Eigen::Index row) {
+Eigen::Index node_of(const NetworkCase& c, Eigen::Index row) {
   return row / components(c.mesh);
 }
 
@@ -68,7 +68,7 @@ constexpr double kept = 1e-11;
 TEST(ReferenceEnergy, IsTheFormulaOfPaperEquation15) {
   Random random(11);
   for (int k = 0; k < 60; ++k) {
-    const Case c = random_case(random, k);
+    const NetworkCase c = random_network(random, k);
     const double plain = static_cast<double>(plain_energy(c.mesh, c.motion, c.C, widened(c.V0)));
     EXPECT_NEAR(energy(c.mesh, c.motion, c.C, c.V0), plain, 1e-13 * plain) << "case " << k;
   }
@@ -109,7 +109,7 @@ TEST(ReferenceEnergy, BetaIsDt4TimesMeanAlphaOfTheNodesSprings) {
 TEST(ReferenceNetwork, WeightsAreMinusTheHessianByFiniteDifferences) {
   Random random(21);
   for (int k = 0; k < 24; ++k) {
-    const Case c = random_case(random, k);
+    const NetworkCase c = random_network(random, k);
     const Eigen::MatrixXd W = network(c.mesh, c.motion, c.C, c.V0).W;
     const Vector scale = scale_of(c).curvature;
     const double noise = difference_noise(plain_energy(c.mesh, c.motion, c.C, widened(c.V0)));
@@ -127,7 +127,7 @@ TEST(ReferenceNetwork, WeightsAreMinusTheHessianByFiniteDifferences) {
 TEST(ReferenceNetwork, BiasIsHessianTimesV0MinusGradientByFiniteDifferences) {
   Random random(22);
   for (int k = 0; k < 60; ++k) {
-    const Case c = random_case(random, k);
+    const NetworkCase c = random_network(random, k);
     const Network net = network(c.mesh, c.motion, c.C, c.V0);
     const Scale scale = scale_of(c);
     const auto E = [&](const WideVector& V) { return plain_energy(c.mesh, c.motion, c.C, V); };
@@ -150,7 +150,7 @@ TEST(ReferenceNetwork, AgreesWithTheEnergyToSecondOrder) {
     double sum = 0;
     Random same(seed);
     for (int k = 0; k < 30; ++k) {
-      Case c = random_case(same, k % 2 ? 1 : 0);
+      NetworkCase c = random_network(same, k % 2 ? 1 : 0);
       c.motion.time_step = 1;
       const Vector V = c.V0 + t * random_outputs(same, c.mesh);
       const Network net = network(c.mesh, c.motion, c.C, c.V0);
@@ -170,7 +170,7 @@ TEST(ReferenceNetwork, IsTheEnergyItselfWhereThatIsQuadratic) {
   // docs/method/theory.md, section 5, Neural Mesh (paper eq. 1): L = 0 and no beta leave nothing to expand.
   Random random(24);
   for (int k = 0; k < 40; ++k) {
-    Case c = random_case(random, k);
+    NetworkCase c = random_network(random, k);
     for (auto& spring : c.mesh.springs) spring.rest_length = 0;
     c.motion.beta = 0;
     c.motion.time_step = 1;
@@ -185,7 +185,7 @@ TEST(ReferenceNetwork, IsTheEnergyItselfWhereThatIsQuadratic) {
 TEST(ReferenceNetwork, WeightsAreSymmetricToTheLastBit) {
   Random random(25);
   for (int k = 0; k < 200; ++k) {
-    const Case c = random_case(random, k);
+    const NetworkCase c = random_network(random, k);
     const Eigen::MatrixXd W = network(c.mesh, c.motion, c.C, c.V0).W;
     ASSERT_GT(W.norm(), 0);
     for (Eigen::Index i = 0; i < W.rows(); ++i)
@@ -196,7 +196,7 @@ TEST(ReferenceNetwork, WeightsAreSymmetricToTheLastBit) {
 TEST(ReferenceNetwork, HasWeightsAlongSpringsOnlyAndNoneAtPins) {
   Random random(26);
   for (int k = 0; k < 40; ++k) {
-    const Case c = random_case(random, k);
+    const NetworkCase c = random_network(random, k);
     const Eigen::Index per_node = components(c.mesh);
     const Network net = network(c.mesh, c.motion, c.C, c.V0);
     Eigen::MatrixXi expected = Eigen::MatrixXi::Zero(net.W.rows(), net.W.cols());

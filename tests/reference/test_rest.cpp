@@ -2,6 +2,7 @@
 // solved by hand.
 #include "sim/reference/rest.h"
 #include "tests/reference/random_inputs.h"
+#include "tests/reference/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +10,6 @@ namespace hopmesh::tests {
 namespace {
 
 using namespace reference;
-
-double difference(const Vector& a, const Vector& b) {
-  return a.size() == 0 ? 0 : (a - b).cwiseAbs().maxCoeff();
-}
 
 Rest rest_of(const Network& network, const Vector& V) {
   return rest_from(BlockNetwork(network, 1), V);

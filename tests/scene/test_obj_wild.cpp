@@ -18,7 +18,7 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\n";
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 const Edges rim{{0, 1}, {0, 3}, {1, 2}, {2, 3}};
 
-Edges edges(const Mesh& mesh) {
+Edges found_edges(const Mesh& mesh) {
   Edges all;
   for (const Spring& s : mesh.springs) all.emplace_back(s.node[0], s.node[1]);
   return all;
@@ -36,7 +36,7 @@ void expect_square(const std::string& text) {
   EXPECT_THAT(mesh.position,
               ElementsAre(Vector3{0, 0, 0}, Vector3{1, 0, 0}, Vector3{1, 0, 1}, Vector3{0, 0, 1}))
       << text;
-  EXPECT_EQ(edges(mesh), rim) << text;
+  EXPECT_EQ(found_edges(mesh), rim) << text;
   EXPECT_THAT(mesh.notes, IsEmpty()) << text;
 }
 
@@ -91,7 +91,7 @@ TEST(ObjWild, AVeryLongLine) {
 
 TEST(ObjWild, WhatIsPassedOverIsNamed) {
   const Mesh mesh = mesh_of_obj(square + "p 1\np 2\ncurv 0 1 1 \\\n2\nf 1 2 3 4\n\x01 7\n");
-  EXPECT_EQ(edges(mesh), rim);
+  EXPECT_EQ(found_edges(mesh), rim);
   EXPECT_THAT(
       mesh.notes,
       ElementsAre(EndsWith("mesh.obj: passed over statements that add neither vertex, face nor line: "
@@ -109,14 +109,14 @@ TEST(ObjWild, TextureCornersThatAreNoNumbersAreNoReasonToRefuseAMesh) {
 TEST(ObjWild, RepeatedCornersAreOne) {
   for (const char* face : {"f 1 2 3 4 1\n", "f 1 1 2 3 3 3 4\n", "f 1 2 3 4 4 1 1\n", "l 1 2 2 3 4 1\n"}) {
     const Mesh mesh = mesh_of_obj(square + face);
-    EXPECT_EQ(edges(mesh), rim) << face;
+    EXPECT_EQ(found_edges(mesh), rim) << face;
     EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("left out that repeat the one before"))) << face;
   }
 }
 
 TEST(ObjWild, FacesOfFewerThanThreeCornersAreLeftOut) {
   const Mesh mesh = mesh_of_obj(square + "f 1 1 3\nf 1 3 1 3\nf 1 2 3 4\nl 2 2\n");
-  EXPECT_EQ(edges(mesh), rim);
+  EXPECT_EQ(found_edges(mesh), rim);
   EXPECT_EQ(mesh.triangles.size(), 2u);
   EXPECT_THAT(mesh.notes,
               ElementsAre(HasSubstr("9 corners left out that repeat the one before, with them 2 faces of "
@@ -125,7 +125,7 @@ TEST(ObjWild, FacesOfFewerThanThreeCornersAreLeftOut) {
 
 TEST(ObjWild, APolygonThatComesByAVertexTwiceHasNoTriangleWithoutArea) {
   const Mesh mesh = mesh_of_obj(square + "v 2 0 2\nf 1 2 3 5 3 4\n");
-  EXPECT_EQ(edges(mesh).size(), 5u);
+  EXPECT_EQ(found_edges(mesh).size(), 5u);
   for (const auto& t : mesh.triangles) EXPECT_TRUE(t[0].node != t[1].node && t[0].node != t[2].node);
 }
 
@@ -133,13 +133,13 @@ TEST(ObjWild, LooseVerticesAreLeftOutOrKeptAsPinnedNodes) {
   const std::string obj = "v 9 9 9\n" + square + "v 7 7 7\nf 2 3 4 5\n";
   const Mesh dropped = mesh_with(obj, "");
   EXPECT_EQ(dropped.nodes(), 4u);
-  EXPECT_EQ(edges(dropped), rim);
+  EXPECT_EQ(found_edges(dropped), rim);
   EXPECT_THAT(dropped.notes,
               ElementsAre(HasSubstr("m.obj: 2 vertices in no face or line, the first in line 1: left "
                                     "out, so later nodes have lower numbers than in the file")));
   const Mesh kept = mesh_with(obj, "loose = \"keep\"\npinned = [1]\n");
   EXPECT_EQ(kept.nodes(), 6u);
-  EXPECT_EQ(edges(kept)[0], std::pair(1u, 2u)) << "a node's number is the vertex's less 1";
+  EXPECT_EQ(found_edges(kept)[0], std::pair(1u, 2u)) << "a node's number is the vertex's less 1";
   EXPECT_EQ(kept.pinned, (std::vector<bool>{true, true, false, false, false, true}));
   EXPECT_THAT(kept.notes, ElementsAre(EndsWith("the first in line 1: kept, pinned where they stand")));
 }
@@ -158,14 +158,14 @@ TEST(ObjWild, PartsAndSeamsAreToldInALine) {
 
 TEST(ObjWild, WeldingJoinsSeams) {
   const Mesh mesh = mesh_with(split_square, "weld = true\n");
-  EXPECT_EQ(edges(mesh), (Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {2, 3}}));
+  EXPECT_EQ(found_edges(mesh), (Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {2, 3}}));
   EXPECT_THAT(mesh.notes, ElementsAre(EndsWith("2 vertices welded to others at the same place")));
 }
 
 TEST(ObjWild, WeldingMakesAnEdgeWithoutLengthOneNode) {
   const std::string obj = square + "v 0 0 1\nf 1 2 3 4 5\n";
   EXPECT_THAT(complaint([&] { mesh_of_obj(obj); }), HasSubstr("or mesh.weld = true"));
-  EXPECT_EQ(edges(mesh_with(obj, "weld = true\n")), rim);
+  EXPECT_EQ(found_edges(mesh_with(obj, "weld = true\n")), rim);
 }
 
 TEST(ObjWild, ASpringFarShorterThanTheOthersIsNamed) {

@@ -22,29 +22,29 @@ std::vector<std::size_t> held(Scene scene, const std::vector<Pin>& pins) {
 //  0  1  2  3
 //  4  5  6  7
 //  8  9 10 11
-const Scene grid = grid_scene(3, 4);
+const Scene pin_grid = grid_scene(3, 4);
 
 TEST(Pins, sidesOfAGrid) {
-  EXPECT_THAT(held(grid, {"left"}), ElementsAre(0, 4, 8));
-  EXPECT_THAT(held(grid, {"right"}), ElementsAre(3, 7, 11));
-  EXPECT_THAT(held(grid, {"top"}), ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(held(grid, {"bottom"}), ElementsAre(8, 9, 10, 11));
-  EXPECT_THAT(held(grid, {"corners"}), ElementsAre(0, 3, 8, 11));
-  EXPECT_TRUE(held(grid, {}).empty());
+  EXPECT_THAT(held(pin_grid, {"left"}), ElementsAre(0, 4, 8));
+  EXPECT_THAT(held(pin_grid, {"right"}), ElementsAre(3, 7, 11));
+  EXPECT_THAT(held(pin_grid, {"top"}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(held(pin_grid, {"bottom"}), ElementsAre(8, 9, 10, 11));
+  EXPECT_THAT(held(pin_grid, {"corners"}), ElementsAre(0, 3, 8, 11));
+  EXPECT_TRUE(held(pin_grid, {}).empty());
 }
 
 TEST(Pins, addUp) {
-  EXPECT_THAT(held(grid, {"left", "corners"}), ElementsAre(0, 3, 4, 8, 11));
-  EXPECT_THAT(held(grid, {std::int64_t{5}, "left", std::int64_t{0}, std::int64_t{5}}),
+  EXPECT_THAT(held(pin_grid, {"left", "corners"}), ElementsAre(0, 3, 4, 8, 11));
+  EXPECT_THAT(held(pin_grid, {std::int64_t{5}, "left", std::int64_t{0}, std::int64_t{5}}),
               ElementsAre(0, 4, 5, 8));
-  EXPECT_THAT(held(grid, {std::int64_t{11}}), ElementsAre(11));
+  EXPECT_THAT(held(pin_grid, {std::int64_t{11}}), ElementsAre(11));
 }
 
 TEST(Pins, mustNameNodesOfTheMesh) {
-  EXPECT_THAT(complaint([] { held(grid, {std::int64_t{12}}); }),
+  EXPECT_THAT(complaint([] { held(pin_grid, {std::int64_t{12}}); }),
               ::testing::HasSubstr("found node 12, expected node numbers from 0 to 11"));
-  EXPECT_THAT(complaint([] { held(grid, {std::int64_t{-1}}); }), ::testing::HasSubstr("found node -1"));
-  EXPECT_THAT(complaint([] { held(grid, {"lefd"}); }), ::testing::HasSubstr("(did you mean left?)"));
+  EXPECT_THAT(complaint([] { held(pin_grid, {std::int64_t{-1}}); }), ::testing::HasSubstr("found node -1"));
+  EXPECT_THAT(complaint([] { held(pin_grid, {"lefd"}); }), ::testing::HasSubstr("(did you mean left?)"));
 }
 
 std::vector<std::size_t> held_inside(Scene scene, const Vector3& centre, double radius,
@@ -54,17 +54,17 @@ std::vector<std::size_t> held_inside(Scene scene, const Vector3& centre, double 
 }
 
 TEST(Pins, aBallHoldsWhatLiesInside) {
-  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 0.5), ElementsAre(5));
-  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 1), ElementsAre(1, 4, 5, 6, 9)); // its skin counts
-  EXPECT_THAT(held_inside(grid, {1, 0, -1}, 1.4), ElementsAre(1, 4, 5, 6, 9));
-  EXPECT_THAT(held_inside(grid, {1.5, 0.5, -2}, 0.71), ElementsAre(9, 10)); // from beside the sheet
-  EXPECT_THAT(held_inside(grid, {3, 0, 0}, 0.1, {"left"}), ElementsAre(0, 3, 4, 8));
+  EXPECT_THAT(held_inside(pin_grid, {1, 0, -1}, 0.5), ElementsAre(5));
+  EXPECT_THAT(held_inside(pin_grid, {1, 0, -1}, 1), ElementsAre(1, 4, 5, 6, 9)); // its skin counts
+  EXPECT_THAT(held_inside(pin_grid, {1, 0, -1}, 1.4), ElementsAre(1, 4, 5, 6, 9));
+  EXPECT_THAT(held_inside(pin_grid, {1.5, 0.5, -2}, 0.71), ElementsAre(9, 10)); // from beside the pin_grid
+  EXPECT_THAT(held_inside(pin_grid, {3, 0, 0}, 0.1, {"left"}), ElementsAre(0, 3, 4, 8));
 }
 
 TEST(Pins, aBallMustHoldANode) {
   EXPECT_THAT(
       complaint([] {
-        held_inside(grid, {0.5, 0, -0.5}, 0.7);
+        held_inside(pin_grid, {0.5, 0, -0.5}, 0.7);
       }),
       ::testing::HasSubstr("mesh.pin_ball: found no node inside, expected at least one node within 0.7 m"));
 }

@@ -4,7 +4,7 @@
 namespace hopmesh::tests {
 namespace {
 
-__int128 with_sign(Wide magnitude, bool negative) {
+__int128 wide_with_sign(Wide magnitude, bool negative) {
   return negative ? -static_cast<__int128>(magnitude) : static_cast<__int128>(magnitude);
 }
 
@@ -46,7 +46,7 @@ __int128 multiply(std::int64_t a, std::int64_t b) {
   Wide shifted = magnitude_of(a), product = 0;
   for (Wide rest = magnitude_of(b); rest != 0; rest >>= 1, shifted <<= 1)
     if (rest & 1) product += shifted;
-  return with_sign(product, (a < 0) != (b < 0));
+  return wide_with_sign(product, (a < 0) != (b < 0));
 }
 
 std::int64_t accumulate(const spec::ArraySpec& array, const spec::NumberFormat& format,
@@ -57,10 +57,10 @@ std::int64_t accumulate(const spec::ArraySpec& array, const spec::NumberFormat& 
   const int fine = std::max(product, format.fraction_bits());
   std::int64_t s = quantise_code(bias, array.formats.bias.fraction_bits(), format);
   for (std::size_t first = 0; first < weight.size(); first += array.lanes) {
-    __int128 sum = with_sign(magnitude_of(s) << (fine - format.fraction_bits()), s < 0);
+    __int128 sum = wide_with_sign(magnitude_of(s) << (fine - format.fraction_bits()), s < 0);
     for (std::size_t k = first; k < weight.size() && k < first + array.lanes; ++k) {
       const __int128 tap = multiply(weight[k], link[k]);
-      sum += with_sign(magnitude_of(tap) << (fine - product), tap < 0);
+      sum += wide_with_sign(magnitude_of(tap) << (fine - product), tap < 0);
     }
     s = quantise_code(sum, fine, format);
   }
@@ -94,7 +94,8 @@ std::int64_t change(const spec::Formats& f, std::int64_t v, std::int64_t u) {
   const std::int64_t r = u >= 0 ? one - v : one + v;
   const __int128 product = multiply(r, u); // in units of 2^-(F_state + F_drive)
   const Cut cut = cut_bits(magnitude_of(product), f.drive.fraction_bits(), 0);
-  return static_cast<std::int64_t>(with_sign(round_cut(cut, product < 0, f.state.rounding), product < 0));
+  return static_cast<std::int64_t>(
+      wide_with_sign(round_cut(cut, product < 0, f.state.rounding), product < 0));
 }
 
 std::int64_t link_code(const spec::Formats& f, std::int64_t v) {

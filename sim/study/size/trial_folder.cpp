@@ -9,8 +9,8 @@ namespace hopmesh::study {
 
 namespace {
 
-const std::vector<std::string> columns{"status", "error",      "sweeps",     "most_sweeps",
-                                       "cycles", "bus_cycles", "most_cycles"};
+const std::vector<std::string> trial_columns{"status", "error",      "sweeps",     "most_sweeps",
+                                             "cycles", "bus_cycles", "most_cycles"};
 
 std::string name_of(const Setting& setting) {
   return fmt::format("{}", fmt::join(setting, "-"));
@@ -20,8 +20,8 @@ std::string name_of(const Setting& setting) {
 
 TrialFolder::TrialFolder(const std::filesystem::path& folder, std::uint64_t hash)
     : safe_(folder, "trials",
-            {"size.hash", hash, "trials of another scene, array or length", "a folder of its own"}, columns,
-            true) {}
+            {"size.hash", hash, "trials of another scene, array or length", "a folder of its own"},
+            trial_columns, true) {}
 
 std::optional<TrialRow> TrialFolder::find(const Setting& setting) const {
   const std::string name = name_of(setting);

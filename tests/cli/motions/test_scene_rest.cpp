@@ -8,7 +8,7 @@
 namespace hopmesh::tests {
 namespace {
 
-constexpr double g = 9.81;
+constexpr double earth_gravity = 9.81;
 
 scene::Mesh mesh_of(const std::string& name) {
   return scene::build_mesh(scene::read_inputs(name, "", {}).scene);
@@ -23,7 +23,7 @@ std::vector<scene::Vector3> balanced(const scene::Mesh& mesh) {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      right[i] = mesh.pinned[i] ? mesh.position[i][p] : p == 2 ? -mesh.mass * g : 0;
+      right[i] = mesh.pinned[i] ? mesh.position[i][p] : p == 2 ? -mesh.mass * earth_gravity : 0;
       if (mesh.pinned[i]) entries.emplace_back(i, i, 1);
     }
     for (const scene::Spring& spring : mesh.springs)
@@ -63,7 +63,7 @@ TEST_F(SceneMotion, NetIsOneSparseSolve) {
 
 /// The largest force that springs and weight leave on a free node, over its weight.
 double imbalance(const scene::Mesh& mesh, const Positions& p, std::size_t step) {
-  std::vector<Eigen::Vector3d> force(mesh.nodes(), {0, 0, -mesh.mass * g});
+  std::vector<Eigen::Vector3d> force(mesh.nodes(), {0, 0, -mesh.mass * earth_gravity});
   for (const scene::Spring& s : mesh.springs) {
     Eigen::Vector3d u;
     for (int k = 0; k < 3; ++k) u[k] = p.at(step, s.node[1], k) - p.at(step, s.node[0], k);
@@ -73,7 +73,7 @@ double imbalance(const scene::Mesh& mesh, const Positions& p, std::size_t step) 
   double largest = 0;
   for (std::size_t i = 0; i < mesh.nodes(); ++i)
     if (!mesh.pinned[i]) largest = std::max(largest, force[i].norm());
-  return largest / (mesh.mass * g);
+  return largest / (mesh.mass * earth_gravity);
 }
 
 TEST_F(SceneMotion, ClothRestsWhereForcesBalance) {

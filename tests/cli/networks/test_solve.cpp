@@ -97,8 +97,8 @@ TEST_F(CliSolve, EmptyRowsStayAsTheyAre) {
 }
 
 TEST_F(CliSolve, TheNetworkOfAStepComesToItsRest) {
-  const std::string to_rest = " --set relax.threshold=1e-12 --set relax.max_sweeps=100000";
-  good("network two-nodes --step 3 --out n" + to_rest);
+  const std::string until_rest = " --set relax.threshold=1e-12 --set relax.max_sweeps=100000";
+  good("network two-nodes --step 3 --out n" + until_rest);
   good("solve n/W.mtx n/bias.mtx --start n/V0.mtx --level reference --threshold 1e-12 --sweeps 100000 --out "
        "o");
   const Market rest = read_market(at("n/V.mtx"));
