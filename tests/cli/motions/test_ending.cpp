@@ -55,9 +55,10 @@ TEST_F(CliEnding, EachEquationAsPrintedDivergesAndBothDoSoonest) {
     EXPECT_EQ(hopmesh("run " + scene + " --no-check --out " + scene).exit_code, 1) << scene;
     return read_json(at(scene + "/stats.json"))["steps"].get<int>();
   };
-  const int both = steps_of("flag-400-literal"), energies = steps_of("flag-400-eq6");
+  const int both = steps_of("flag-400-literal"), energies = steps_of("flag-400-letter");
   EXPECT_LT(both, energies);
   EXPECT_LT(energies, steps_of("flag-400-eq7"));
+  EXPECT_LE(steps_of("flag-225-letter"), 9);
 }
 
 TEST_F(CliEnding, NumbersBeyondDoubleAreDivergenceToo) {
