@@ -6,9 +6,11 @@ namespace hopmesh::levels {
 
 namespace {
 
-// A rival would make a drag of friction, which is the truth's way of it, not the step's.
-scene::Scene without_friction(scene::Scene scene) {
+// A rival would make a drag of friction, which is the truth's way of it, not the step's; and it may be asked
+// to stop early.
+scene::Scene exact_scene(scene::Scene scene) {
   scene.motion.friction = 1;
+  scene.rival = {};
   return scene;
 }
 
@@ -20,7 +22,7 @@ bool ExactStep::exists_for(const scene::Scene& scene) {
 }
 
 ExactStep::ExactStep(const scene::Scene& scene, const BuiltMesh& mesh)
-    : rival_(scene.formulation_name(), without_friction(scene), mesh), friction_(scene.motion.friction) {}
+    : rival_(scene.formulation_name(), exact_scene(scene), mesh), friction_(scene.motion.friction) {}
 
 StepRow ExactStep::advance() {
   StepRow row = rival_.advance();

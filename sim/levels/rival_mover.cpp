@@ -11,6 +11,12 @@ rivals::State state_of(const std::vector<double>& position, const std::vector<do
   return {rivals::by_component(vector_of(position)), rivals::by_component(vector_of(velocity))};
 }
 
+rivals::Options options_of(const scene::Scene& scene) {
+  rivals::Options options;
+  options.tolerance = scene.rival.tolerance;
+  return options;
+}
+
 } // namespace
 
 rivals::Surroundings surroundings_of(const scene::Scene& scene) {
@@ -31,7 +37,7 @@ rivals::Surroundings surroundings_of(const scene::Scene& scene) {
 
 RivalMover::RivalMover(const std::string& name, const scene::Scene& scene, const BuiltMesh& mesh)
     : mesh_(mesh), physics_(mesh.mesh(), surroundings_of(scene)), time_step_(scene.motion.time_step),
-      method_(rivals::make_method(name, physics_, time_step_)) {
+      method_(rivals::make_method(name, physics_, time_step_, options_of(scene))) {
   show_state();
 }
 

@@ -13,7 +13,8 @@ struct StepState {
   std::uint64_t step = 0;                               ///< steps done
   std::vector<double> position, velocity, acceleration; ///< [nodes * 3]
   std::vector<double> output; ///< V at rest: [cells * components], at level reference [nodes * components]
-  std::vector<double> previous_position, previous_velocity; ///< a step before; BDF2 only, else empty
+  std::vector<double> previous_position,
+      previous_velocity; ///< a step before; of methods that look back, else empty
 };
 
 /// The arrays of a state in their order, each with its name.

@@ -1,5 +1,5 @@
-// The inner loops of explicit methods, compiled for several instruction sets; the processor decides at run
-// time. All give the same bits: they share every operation and its order (no sum runs across lanes).
+// The inner loops over springs, compiled for several instruction sets; the processor decides at run time. All
+// give the same bits: they share every operation and its order (no sum runs across lanes).
 #pragma once
 
 #include <cstddef>
@@ -29,10 +29,27 @@ using Pull = void (*)(const Block& block, std::ptrdiff_t nodes, const double* po
 using Kick = void (*)(std::ptrdiff_t count, double kept, double time, const double* force,
                       const double* inverse_mass, const double* external, double* velocity);
 
+/// Springs about a place: a spring's stiffness is `sideways` in every direction, and u u' more, with u the
+/// direction times the root of what it is stiffer along. All [count].
+struct Tangents {
+  double *sideways, *x, *y, *z;
+};
+
+/// Fills the tangents of a block at `position` (L/l at most 1, which leaves no spring a negative direction),
+/// and adds each spring to both its nodes in `diagonal`: xx, yy, zz, xy, xz, yz, all [nodes].
+using Linearise = void (*)(const Block& block, std::ptrdiff_t nodes, const double* position,
+                           const Tangents& tangents, double* diagonal);
+
+/// Adds the block's stiffness times `vector` to `product`; both [3 * nodes], component by component.
+using Multiply = void (*)(const Block& block, const Tangents& tangents, std::ptrdiff_t nodes,
+                          const double* vector, double* product);
+
 struct ForceKernel {
   const char* name;
   Pull pull;
   Kick kick;
+  Linearise linearise;
+  Multiply multiply;
 };
 extern const ForceKernel portable_kernel, avx2_kernel, avx512_kernel;
 

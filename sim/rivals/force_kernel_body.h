@@ -1,3 +1,4 @@
+#pragma once
 // The loops of force_kernel.h, included once for each instruction set.
 #include "sim/rivals/force_kernel.h"
 
@@ -49,42 +50,49 @@ struct Pulls {
   }
 };
 
-// Neighbouring springs share nodes: all starts are added before all ends.
-inline void pull_narrow_row(const Block& row, std::ptrdiff_t nodes, const double* position, double* force) {
-  Pulls pulls;
-  for (std::ptrdiff_t p = 0; p < 3; ++p) {
-    const double *const from = position + p * nodes, *const to = from + row.distance;
-    for (std::ptrdiff_t s = 0; s < row.count; ++s) pulls.component[p][s] = to[s] - from[s];
+/// The value at the second end of each spring less that at its first.
+inline void read_spans(const Block& block, const double* value, double* span) {
+  if (block.distance == 0) {
+    for (std::ptrdiff_t s = 0; s < block.count; ++s) span[s] = value[block.to[s]] - value[block.from[s]];
+    return;
   }
-  pulls.scale(row);
-  for (std::ptrdiff_t p = 0; p < 3; ++p) {
-    double* const __restrict from = force + p * nodes;
-    const double* const __restrict pull = pulls.component[p];
-    for (std::ptrdiff_t s = 0; s < row.count; ++s) from[s] += pull[s];
-    double* const __restrict to = from + row.distance;
-    for (std::ptrdiff_t s = 0; s < row.count; ++s) to[s] -= pull[s];
-  }
+  const double *const from = value + block.node, *const to = from + block.distance;
+  for (std::ptrdiff_t s = 0; s < block.count; ++s) span[s] = to[s] - from[s];
 }
 
-inline void pull_singles(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
-  Pulls pulls;
-  for (std::ptrdiff_t p = 0; p < 3; ++p)
-    for (std::ptrdiff_t s = 0; s < block.count; ++s)
-      pulls.component[p][s] = position[p * nodes + block.to[s]] - position[p * nodes + block.from[s]];
-  pulls.scale(block);
-  for (std::ptrdiff_t p = 0; p < 3; ++p)
+/// Adds a term of each spring to its first end, and `at_end` times it to its second. Neighbouring springs
+/// share nodes: in a row all starts are added before all ends.
+template <int at_end>
+inline void add_to_ends(const Block& block, const double* __restrict term, double* __restrict value) {
+  if (block.distance == 0) {
     for (std::ptrdiff_t s = 0; s < block.count; ++s) {
-      force[p * nodes + block.from[s]] += pulls.component[p][s];
-      force[p * nodes + block.to[s]] -= pulls.component[p][s];
+      value[block.from[s]] += term[s];
+      value[block.to[s]] += at_end * term[s];
     }
+    return;
+  }
+  double* const __restrict from = value + block.node;
+  for (std::ptrdiff_t s = 0; s < block.count; ++s) from[s] += term[s];
+  double* const __restrict to = from + block.distance;
+  for (std::ptrdiff_t s = 0; s < block.count; ++s) to[s] += at_end * term[s];
+}
+
+inline bool is_wide(const Block& block) {
+  return block.distance >= most_lanes;
+}
+
+inline void pull_narrow(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
+  Pulls pulls;
+  for (std::ptrdiff_t p = 0; p < 3; ++p) read_spans(block, position + p * nodes, pulls.component[p]);
+  pulls.scale(block);
+  for (std::ptrdiff_t p = 0; p < 3; ++p) add_to_ends<-1>(block, pulls.component[p], force + p * nodes);
 }
 
 inline void pull_block(const Block& block, std::ptrdiff_t nodes, const double* position, double* force) {
-  if (block.distance == 0) return pull_singles(block, nodes, position, force);
-  if (block.distance < most_lanes)
-    pull_narrow_row(block, nodes, position + block.node, force + block.node);
-  else
+  if (is_wide(block))
     pull_wide_row(block, nodes, position + block.node, force + block.node);
+  else
+    pull_narrow(block, nodes, position, force);
 }
 
 inline void kick_all(std::ptrdiff_t count, double kept, double time, const double* force,

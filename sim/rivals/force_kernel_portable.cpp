@@ -1,9 +1,10 @@
-// The loops of a force pass for every processor, and the choice between them.
+// The loops over springs for every processor, and the choice between them.
 #include "sim/rivals/force_kernel_body.h"
+#include "sim/rivals/tangent_kernel_body.h"
 
 namespace hopmesh::rivals {
 
-const ForceKernel portable_kernel{"portable", pull_block, kick_all};
+const ForceKernel portable_kernel{"portable", pull_block, kick_all, linearise_block, multiply_block};
 
 std::vector<ForceKernel> force_kernels() {
   std::vector<ForceKernel> all{portable_kernel};

@@ -65,10 +65,8 @@ void ForcePass::add_row(const std::vector<scene::Spring>& sorted, std::size_t be
 
 void ForcePass::forces(In position, Out force) const {
   force.setZero();
-  for (const Row& row : rows_)
-    kernel_.pull({row.count, row.node, row.distance, &stiffness_[row.first], &rest_[row.first],
-                  &from_[row.first], &to_[row.first]},
-                 nodes_, position.data(), force.data());
+  each_block(
+      [&](const Block& block, Eigen::Index) { kernel_.pull(block, nodes_, position.data(), force.data()); });
 }
 
 double ForcePass::energy(In position) const {

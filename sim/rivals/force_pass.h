@@ -1,6 +1,7 @@
-// A pass over all springs: forces or energy. Springs whose nodes are equally far apart in number stand in
-// rows (row r of a grid, whole grids of them), so a pass reads and writes neighbouring numbers and several
-// springs share one instruction; the rest go through their node numbers.
+// A pass over all springs: forces, energy, or whatever is done block by block. Springs whose nodes are
+// equally far apart in number stand in rows (row r of a grid, whole grids of them), so a pass reads and
+// writes neighbouring numbers and several springs share one instruction; the rest go through their node
+// numbers.
 #pragma once
 
 #include "sim/rivals/force_kernel.h"
@@ -22,6 +23,17 @@ class ForcePass {
   void forces(In position, Out force) const; ///< overwrites `force`
   double energy(In position) const;
   const ForceKernel& kernel() const { return kernel_; }
+  Eigen::Index nodes() const { return nodes_; }
+
+  /// Springs of all blocks, gaps within rows among them; use(block, first) has each block and where it begins
+  /// among them.
+  Eigen::Index springs() const { return static_cast<Eigen::Index>(stiffness_.size()); }
+  template <class Use> void each_block(Use use) const {
+    for (const Row& row : rows_)
+      use(Block{row.count, row.node, row.distance, &stiffness_[row.first], &rest_[row.first],
+                &from_[row.first], &to_[row.first]},
+          row.first);
+  }
 
  private:
   /// Springs first .. first + count of the arrays below, as a Block of force_kernel.h.

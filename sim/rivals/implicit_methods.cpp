@@ -44,31 +44,16 @@ class Bdf2 : public ImplicitRule {
   Bdf2(const Physics& physics, double time_step, const Options& options)
       : ImplicitRule("bdf2", physics, time_step, options) {}
 
-  void start_from(const State& state) override {
-    Method::start_from(state);
-    has_past_ = false;
-  }
-  const State* before() const override { return has_past_ ? &before_ : nullptr; }
-  void go_on_from(const State& now, const State* before) override {
-    start_from(now);
-    has_past_ = before != nullptr;
-    if (has_past_) before_ = *before;
-  }
-
  private:
   void step() override {
     const State now = state_;
-    if (has_past_)
-      solve((4 * now.position - before_.position) / 3, (4 * now.velocity - before_.velocity) / 3,
+    if (before_)
+      solve((4 * now.position - before_->position) / 3, (4 * now.velocity - before_->velocity) / 3,
             2 * time_step_ / 3);
     else
       solve(now.position, now.velocity, time_step_);
     before_ = now;
-    has_past_ = true;
   }
-
-  State before_;
-  bool has_past_ = false;
 };
 
 } // namespace

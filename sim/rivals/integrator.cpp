@@ -18,6 +18,8 @@ const std::vector<Row> rows = {
     {"rk4", "explicit, order 4: the classical Runge-Kutta method", rk4},
     {"backward_euler", "implicit, order 1: each step solved by Newton's method", backward_euler},
     {"bdf2", "implicit, order 2: looks two steps back, solved by Newton's method", bdf2},
+    {"linearly_implicit", "implicit, order 1: each step linearised, solved by conjugate gradients",
+     linearly_implicit},
     {"xpbd", "springs as constraints, met in turn", xpbd},
     {"projective_dynamics", "backward Euler by local and global solves", projective_dynamics},
 };
@@ -26,7 +28,7 @@ const std::vector<Row> rows = {
 constexpr double lost_speed = 1e30;
 
 bool in_range(double time_step, const Options& options) {
-  return time_step > 0 && std::isfinite(time_step) && options.tolerance > 0 && options.max_iterations > 0 &&
+  return time_step > 0 && std::isfinite(time_step) && options.tolerance >= 0 && options.max_iterations > 0 &&
          options.substeps > 0 && options.iterations >= 0;
 }
 
@@ -41,10 +43,12 @@ void Method::advance() {
 
 void Method::start_from(const State& state) {
   state_ = state;
+  before_.reset();
 }
 
-void Method::go_on_from(const State& now, const State*) {
+void Method::go_on_from(const State& now, const State* before) {
   start_from(now);
+  if (before) before_ = *before;
 }
 
 void Method::diverge(const std::string& how) const {

@@ -4,20 +4,25 @@
 #include "sim/rivals/physics.h"
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace hopmesh::rivals {
 
 struct Options {
-  double tolerance = 1e-9;   ///< Newton: done when no coordinate moves by more, m
+  double tolerance = 0; ///< implicit methods: done with the iteration that moves no coordinate by more, m;
+                        ///< 0: the method's own, 1e-9, or none where it iterates a fixed number of times
   int max_iterations = 1000; ///< Newton: a step that needs more has failed; one that buckles takes hundreds
   int substeps = 1;          ///< xpbd: equal parts of a time step
-  int iterations = 0;        ///< xpbd, projective_dynamics: sweeps a (sub)step; 0: the method's own, 1 and 20
+  int iterations = 0; ///< xpbd, projective_dynamics: sweeps a (sub)step; 0: the method's own, 1, and 20
+                      ///< without a tolerance
+
+  double tolerance_or(double own) const { return tolerance > 0 ? tolerance : own; }
 };
 
-/// Work since the start. An iteration is one of Newton's, a sweep of XPBD, a local and a global solve of
-/// projective dynamics.
+/// Work since the start. An iteration is one of Newton's or of conjugate gradients, a sweep of XPBD, a local
+/// and a global solve of projective dynamics.
 struct Counters {
   std::uint64_t steps = 0, force_passes = 0, factorisations = 0, linear_solves = 0, iterations = 0;
 };
@@ -36,10 +41,10 @@ class Method {
 
   void advance(); ///< one time step; throws LostMotion
   virtual void start_from(const State& state);
-  /// The state a step before, for methods that look back two (BDF2, once it has done one); else null.
-  virtual const State* before() const { return nullptr; }
+  /// The state a step before, for methods that look back two, once they have done one; else null.
+  const State* before() const { return before_ ? &*before_ : nullptr; }
   /// Goes on from where another of this method was, bit for bit; `before`: as it said.
-  virtual void go_on_from(const State& now, const State* before);
+  void go_on_from(const State& now, const State* before);
 
   const State& state() const { return state_; }
   Vector positions() const { return by_node(state_.position); }  ///< [3 * nodes] node by node, m
@@ -59,6 +64,7 @@ class Method {
   const Physics& physics_;
   const double time_step_;
   State state_;
+  std::optional<State> before_; ///< kept by methods that look back
   Counters counters_;
 
  private:

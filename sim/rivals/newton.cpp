@@ -9,12 +9,14 @@ namespace {
 constexpr double sufficient = 1e-4;         // Armijo's share of the promised fall
 constexpr double too_small_to_judge = 1e-7; // m: below it the fall of the energy drowns in its own rounding
 constexpr int most_halvings = 40;
+constexpr double newton_tolerance = 1e-9; // m
 
 } // namespace
 
 Newton::Newton(const Physics& physics, const Options& options)
-    : physics_(physics), options_(options), stiffness_(physics), gradient_(Vector::Zero(3 * physics.nodes())),
-      direction_(gradient_) {
+    : physics_(physics), tolerance_(options.tolerance_or(newton_tolerance)),
+      max_iterations_(options.max_iterations), stiffness_(physics),
+      gradient_(Vector::Zero(3 * physics.nodes())), direction_(gradient_) {
   solver_.analyzePattern(stiffness_.lower());
 }
 
@@ -59,11 +61,11 @@ void Newton::search(const Implicit& problem, Vector& x) {
 
 bool Newton::minimise(const Implicit& problem, Vector& x, Counters& counters) {
   double before = INFINITY;
-  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations_; ++iteration) {
     if (!find_direction(problem, x, counters)) return false;
     search(problem, x);
     const double moved = direction_.lpNorm<Eigen::Infinity>();
-    if (moved <= options_.tolerance) return true;
+    if (moved <= tolerance_) return true;
     // A tolerance below rounding: as near as doubles get.
     if (moved < 1e-12 && moved >= before / 2) return true;
     before = moved;

@@ -21,7 +21,7 @@ class Newton {
   Newton(const Physics& physics, const Options& options);
 
   /// From the x given to the minimum. Full Hessian, the projected one where that has a negative direction;
-  /// Armijo's line search. False if it did not come to rest within options.max_iterations.
+  /// Armijo's line search. False if it did not come to rest within max_iterations.
   bool minimise(const Implicit& problem, Vector& x, Counters& counters);
 
  private:
@@ -31,7 +31,8 @@ class Newton {
   void search(const Implicit& problem, Vector& x);
 
   const Physics& physics_;
-  const Options options_;
+  const double tolerance_;
+  const int max_iterations_;
   Stiffness stiffness_;
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver_;
   Vector gradient_, direction_, trial_, free_;

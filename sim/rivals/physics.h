@@ -50,6 +50,7 @@ class Physics {
   void kick(double kept, double time, In force, Out velocity) const;
   /// By springs, surroundings and drag.
   void acceleration(In position, In velocity, Out result) const;
+  const ForcePass& pass() const { return pass_; }
   double spring_energy(In position) const { return pass_.energy(position); }
   /// Kinetic, spring and potential energy, J.
   double energy(const State& state) const;

@@ -12,10 +12,15 @@ double inertia_of(const Physics& physics, double dt) {
   return physics.mass() * physics.slowed(dt) / (dt * dt);
 }
 
+constexpr int own_iterations = 20, most_iterations = 1'000'000;
+
 class ProjectiveDynamics : public Method {
  public:
-  ProjectiveDynamics(const Physics& physics, double time_step, int iterations)
-      : Method("projective_dynamics", physics, time_step), iterations_(iterations),
+  ProjectiveDynamics(const Physics& physics, double time_step, const Options& options)
+      : Method("projective_dynamics", physics, time_step), tolerance_(options.tolerance),
+        iterations_(options.iterations > 0 ? options.iterations
+                    : tolerance_ > 0       ? most_iterations
+                                           : own_iterations),
         solver_(physics, inertia_of(physics, time_step)), x_(Vector::Zero(3 * physics.nodes())), y_(x_),
         gradient_(x_) {}
 
@@ -25,19 +30,26 @@ class ProjectiveDynamics : public Method {
     const double inertia = inertia_of(physics_, dt);
     y_ = state_.position + dt / braked * (state_.velocity + dt * physics_.external());
     x_ = y_;
-    for (int iteration = 0; iteration < iterations_; ++iteration) {
-      physics_.spring_forces(x_, gradient_);
-      gradient_ = (inertia * (x_ - y_) - gradient_).cwiseProduct(moves_);
-      solver_.solve(gradient_);
-      x_ -= gradient_;
-    }
-    counters_.force_passes += iterations_;
-    counters_.linear_solves += iterations_;
-    counters_.iterations += iterations_;
+    int left = iterations_;
+    while (left > 0 && !iterate(inertia)) --left;
+    if (left == 0 && iterations_ == most_iterations) diverge("its local and global solves came to no rest");
     state_.velocity = (x_ - state_.position) / dt;
     state_.position = x_;
   }
 
+  /// True where it moved no coordinate by more than the tolerance.
+  bool iterate(double inertia) {
+    physics_.spring_forces(x_, gradient_);
+    gradient_ = (inertia * (x_ - y_) - gradient_).cwiseProduct(moves_);
+    solver_.solve(gradient_);
+    x_ -= gradient_;
+    ++counters_.force_passes;
+    ++counters_.linear_solves;
+    ++counters_.iterations;
+    return tolerance_ > 0 && gradient_.lpNorm<Eigen::Infinity>() <= tolerance_;
+  }
+
+  const double tolerance_;
   const int iterations_;
   NodeSolver solver_;
   Vector x_, y_, gradient_;
@@ -48,8 +60,7 @@ class ProjectiveDynamics : public Method {
 
 std::unique_ptr<Method> projective_dynamics(const Physics& physics, double time_step,
                                             const Options& options) {
-  return std::make_unique<ProjectiveDynamics>(physics, time_step,
-                                              options.iterations ? options.iterations : 20);
+  return std::make_unique<ProjectiveDynamics>(physics, time_step, options);
 }
 
 } // namespace hopmesh::rivals

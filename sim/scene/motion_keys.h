@@ -1,4 +1,5 @@
-// [motion], [probe], [incremental] and [relax] of a scene file: their values, and a row for each key.
+// [motion], [probe], [incremental], [relax] and [rival] of a scene file: their values, and a row for each
+// key.
 #pragma once
 
 #include "sim/input/key_table.h"
@@ -47,6 +48,10 @@ struct RelaxSpec {
   std::int64_t expansions = 1;
 };
 
+struct RivalSpec {
+  double tolerance = 0;
+};
+
 /// Whether anything has a speed; in the static rule nothing does.
 inline input::When moving(const MotionKeys& m, const IncrementalSpec& i) {
   return {m.formulation == Formulation::probe || i.rule != Rule::statics,
@@ -54,7 +59,7 @@ inline input::When moving(const MotionKeys& m, const IncrementalSpec& i) {
 }
 
 /// In the order of scene files.
-inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, RelaxSpec& r) {
+inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, RelaxSpec& r, RivalSpec& v) {
   using namespace input;
   const When probe{m.formulation == Formulation::probe, "motion.formulation = \"probe\""};
   const When incremental{m.formulation == Formulation::incremental, "motion.formulation = \"incremental\""};
@@ -92,6 +97,10 @@ inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, 
       Key("relax.max_sweeps", &r.max_sweeps, count, "at most so many sweeps a step and expansion"),
       Key("relax.expansions", &r.expansions, {1, 1000, ""},
           "how often a step expands the energy anew about the outputs it came to"),
+      Key("rival.tolerance", &v.tolerance, from_zero,
+          "levels that are implicit integrators end a step with the iteration that moves no coordinate by "
+          "more; 0: as each of them does by itself")
+          .in_unit("m"),
   };
 }
 

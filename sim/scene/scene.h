@@ -19,6 +19,7 @@ struct Scene {
   ProbeSpec probe;
   IncrementalSpec incremental;
   RelaxSpec relax;
+  RivalSpec rival;
   ForceSpec force;
 
   /// As reference and firmware call it: probe, or the rule of an incremental one.

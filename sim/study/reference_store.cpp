@@ -38,9 +38,11 @@ levels::ExactMotion whole(const FreeMotion& free) {
 std::uint64_t reference_hash(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
                              const std::vector<double>& times, std::uint64_t steps) {
   files::RunningCheck check;
+  scene::Scene scene = inputs.scene;
+  scene.rival = {}; // the reference is none
   const std::string text =
       fmt::format("{} {} {} {} {}", run::mesh_hash(mesh.mesh()), static_cast<int>(inputs.array.schedule),
-                  static_cast<int>(inputs.array.output), steps, scene::scene_text(inputs.scene));
+                  static_cast<int>(inputs.array.output), steps, scene::scene_text(scene));
   check.add(text.data(), text.size());
   check.add(times.data(), times.size() * sizeof(double));
   return check.value();

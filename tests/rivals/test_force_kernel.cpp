@@ -2,6 +2,7 @@
 #include "sim/rivals/force_pass.h"
 #include "tests/rivals/rival_meshes.h"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -60,6 +61,66 @@ TEST(ForceKernel, everyKernelGivesTheBitsOfThePortableOneAndTheForcesOfTheDefini
     for (const ForceKernel& kernel : force_kernels()) {
       ForcePass(mesh.nodes(), mesh.springs, kernel).forces(x, force);
       EXPECT_EQ(force, portable) << kernel.name;
+    }
+  }
+}
+
+/// The stiffness of all springs, by nodes' components, from the definition.
+Eigen::MatrixXd plain_stiffness(const scene::Mesh& mesh, const Vector& x) {
+  const Eigen::Index n = mesh.nodes();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  for (const scene::Spring& s : mesh.springs) {
+    Eigen::Vector3d d;
+    for (Eigen::Index p = 0; p < 3; ++p) d[p] = x[p * n + s.node[1]] - x[p * n + s.node[0]];
+    const double k = 2 * s.weight, clamped = std::min(1.0, s.rest_length / d.norm());
+    for (Eigen::Index p = 0; p < 3; ++p)
+      for (Eigen::Index q = 0; q < 3; ++q) {
+        const double b = k * ((p == q ? 1 - clamped : 0) + clamped * d[p] * d[q] / d.squaredNorm());
+        const Eigen::Index a = p * n, c = q * n;
+        all(a + s.node[0], c + s.node[0]) += b, all(a + s.node[1], c + s.node[1]) += b;
+        all(a + s.node[0], c + s.node[1]) -= b, all(a + s.node[1], c + s.node[0]) -= b;
+      }
+  }
+  return all;
+}
+
+/// What a kernel makes of a mesh: the tangents of its springs, its diagonal blocks, its product with v.
+struct Linearised {
+  Vector tangents, diagonal, product;
+};
+Linearised linearised(const scene::Mesh& mesh, const ForceKernel& kernel, const Vector& x, const Vector& v) {
+  const ForcePass pass(mesh.nodes(), mesh.springs, kernel);
+  const Eigen::Index n = mesh.nodes(), springs = pass.springs();
+  Linearised all{Vector::Zero(4 * springs), Vector::Zero(6 * n), Vector::Zero(3 * n)};
+  pass.each_block([&](const Block& block, Eigen::Index first) {
+    double* const at = all.tangents.data() + first;
+    const Tangents tangents{at, at + springs, at + 2 * springs, at + 3 * springs};
+    kernel.linearise(block, n, x.data(), tangents, all.diagonal.data());
+    kernel.multiply(block, tangents, n, v.data(), all.product.data());
+  });
+  return all;
+}
+
+TEST(ForceKernel, everyKernelLinearisesAlikeAndAsTheDefinition) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (int k = 0; k < 30; ++k) {
+    const scene::Mesh mesh = random_mesh(random);
+    const Eigen::Index n = mesh.nodes();
+    const Vector x = by_component(mesh), v = Vector::NullaryExpr(3 * n, [&] { return random() / 4e9 - 0.5; });
+    const Eigen::MatrixXd plain = plain_stiffness(mesh, x);
+    const Linearised portable = linearised(mesh, portable_kernel, x, v);
+    EXPECT_LT((portable.product - plain * v).lpNorm<Eigen::Infinity>(), 1e-11);
+    constexpr int row[] = {0, 1, 2, 0, 0, 1}, column[] = {0, 1, 2, 1, 2, 2};
+    for (Eigen::Index c = 0; c < 6; ++c)
+      for (Eigen::Index i = 0; i < n; ++i)
+        ASSERT_NEAR(portable.diagonal[c * n + i], plain(row[c] * n + i, column[c] * n + i), 1e-11);
+    for (const ForceKernel& kernel : force_kernels()) {
+      const Linearised other = linearised(mesh, kernel, x, v);
+      EXPECT_EQ(other.tangents, portable.tangents) << kernel.name;
+      EXPECT_EQ(other.diagonal, portable.diagonal) << kernel.name;
+      EXPECT_EQ(other.product, portable.product) << kernel.name;
     }
   }
 }

@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Of, RivalsStability,
 
 // Far beyond the explicit limit, where a compressed sheet buckles within a step.
 TEST(RivalsLimit, ImplicitStepsHaveNone) {
-  for (const std::string name : {"backward_euler", "bdf2", "projective_dynamics"})
+  for (const std::string name : {"backward_euler", "bdf2", "linearly_implicit", "projective_dynamics"})
     for (const double alpha : {50.0, 5000.0}) {
       const scene::Mesh mesh = sheet(10, alpha);
       const Physics physics(mesh, banner_air);

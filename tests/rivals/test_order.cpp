@@ -37,6 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Of, RivalsOrder,
                          ::testing::Values(std::tuple("symplectic_euler", 80, 1.0),
                                            std::tuple("velocity_verlet", 80, 2.0), std::tuple("rk4", 40, 4.0),
                                            std::tuple("backward_euler", 80, 1.0), std::tuple("bdf2", 80, 2.0),
+                                           std::tuple("linearly_implicit", 80, 1.0),
                                            std::tuple("xpbd", 80, 1.0),
                                            std::tuple("projective_dynamics", 80, 1.0)),
                          [](const auto& made) { return std::get<0>(made.param); });

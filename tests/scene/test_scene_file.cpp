@@ -54,6 +54,7 @@ TEST(SceneFile, readsEveryKeyOfTheMotion) {
   EXPECT_EQ(s.relax.threshold, 3e-7);
   EXPECT_EQ(s.relax.max_sweeps, 12);
   EXPECT_EQ(s.relax.expansions, 3);
+  EXPECT_EQ(s.rival.tolerance, 2e-5);
   EXPECT_THAT(s.force.gravity, ElementsAre(0, 0, -9.81));
   EXPECT_THAT(*s.force.wind, ElementsAre(1e-3, 0.3333333333333333, 5));
   EXPECT_EQ(s.force.drag, 0.625);

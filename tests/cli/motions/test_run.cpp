@@ -178,9 +178,22 @@ TEST_P(CliRival, FliesLikeALevelButHasNoWaves) {
   EXPECT_THAT(f.err, ::testing::HasSubstr("--wave: found level " + GetParam()));
 }
 
+// An implicit rival may stop early; the array and explicit methods have nothing to do with it.
+TEST_F(CliRun, RivalsStopWhereTheSceneSays) {
+  const std::string line = "banner --no-check --set mesh.grid.rows=5 --steps 3 --level ";
+  const auto flown = [&](const std::string& words, const std::string& folder) {
+    return content_of(results_of(line + words, folder) / "positions.npy");
+  };
+  for (const std::string level :
+       {"backward_euler", "bdf2", "linearly_implicit", "projective_dynamics", "engine", "velocity_verlet"}) {
+    const bool same = flown(level, level) == flown(level + " --set rival.tolerance=0.01", level + "-early");
+    EXPECT_EQ(same, level == "engine" || level == "velocity_verlet") << level;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, CliRival,
                          ::testing::Values("symplectic_euler", "velocity_verlet", "rk4", "backward_euler",
-                                           "bdf2", "xpbd", "projective_dynamics"));
+                                           "bdf2", "linearly_implicit", "xpbd", "projective_dynamics"));
 
 } // namespace
 } // namespace hopmesh::tests
