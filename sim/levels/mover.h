@@ -27,7 +27,7 @@ class Mover {
   /// V at rest as raw codes, [nodes * components]; empty at levels without codes.
   virtual std::vector<std::int32_t> outputs_raw() const { return {}; }
   virtual std::vector<SignalRange> ranges() const { return {}; }
-  /// Seconds that went into judging the steps, not into making them.
+  /// Seconds of processor time that went into judging the steps, not into making them.
   virtual double judging_seconds() const { return 0; }
 
   /// As the last good step left it.

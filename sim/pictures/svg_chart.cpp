@@ -158,7 +158,8 @@ class ChartDrawing : public SvgCanvas {
     }
     for (const auto& ladder : chart_.series[index].ladders)
       for (const ChartPoint& p : ladder)
-        if (drawable(p) && (!chart_.curves || &p == &ladder.back())) draw_mark(p, chart_colour(index));
+        if (drawable(p) && (!chart_.curves || &p == &ladder.back()))
+          draw_mark(p, chart_.series[index].squares, chart_colour(index));
   }
 
   // Neighbours in the list of curves differ in dashes as well as in colour.
@@ -181,13 +182,18 @@ class ChartDrawing : public SvgCanvas {
           p.up.least > 0 ? y_.at(p.up.least) : plot.bottom, y_.at(p.up.largest), colour);
   }
 
-  void draw_mark(const ChartPoint& p, const char* colour) {
+  void draw_mark(const ChartPoint& p, bool square, const char* colour) {
     draw_bars(p, colour);
-    put(R"(<circle class="{}" cx="{}" cy="{}" r="5" fill="{}" stroke="{}" stroke-width="1.6" data-command="{}">)"
-        "<title>{}</title></circle>",
-        p.failed ? "point failed" : "point", p.failed ? failed_at : x_.at(p.x), y_.at(p.y),
-        p.failed ? "#fff" : colour, p.failed ? colour : "#fff", escaped(p.command),
-        escaped(p.tip + '\n' + p.command));
+    const double x = p.failed ? failed_at : x_.at(p.x), y = y_.at(p.y);
+    put(R"(<{} fill="{}" stroke="{}" stroke-width="1.6" class="{}" data-command="{}"><title>{}</title></{}>)",
+        mark_at(square, x, y), p.failed ? "#fff" : colour, p.failed ? colour : "#fff",
+        p.failed ? "point failed" : "point", escaped(p.command), escaped(p.tip + '\n' + p.command),
+        square ? "rect" : "circle");
+  }
+
+  static std::string mark_at(bool square, double x, double y) {
+    return square ? fmt::format(R"(rect x="{:.1f}" y="{:.1f}" width="10" height="10")", x - 5, y - 5)
+                  : fmt::format(R"(circle cx="{:.1f}" cy="{:.1f}" r="5")", x, y);
   }
 
   bool has_room(const Box& label) {
@@ -225,12 +231,12 @@ class ChartDrawing : public SvgCanvas {
       if (!has_mark(chart_.series[s])) continue;
       ++shown;
       if (chart_.curves) put(R"(<path d="M{} {}h42" {}/>)", plot.right + 20, y - 5, stroke(s));
-      if (chart_.curves)
-        text(plot.right + 68, y, chart_.series[s].name);
-      else
-        name(plot.right + 20, y, chart_colour(s), chart_.series[s].name);
+      if (!chart_.curves)
+        put(R"(<{} fill="{}"/>)", mark_at(chart_.series[s].squares, plot.right + 26, y - 5), chart_colour(s));
+      text(plot.right + (chart_.curves ? 68 : 40), y, chart_.series[s].name);
       y += 22;
     }
+    for (const std::string& key : chart_.keys) text(plot.right + 20, y, key, R"( fill="#666")"), y += 22;
     if (!chart_.labels.empty())
       text(plot.right + 20, y, "at marks: " + chart_.labels, R"( fill="#666")"), y += 22;
     if (has_failed(chart_)) text(plot.right + 20, y, "hollow: failed, no error to tell", R"( fill="#666")");

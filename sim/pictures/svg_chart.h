@@ -23,6 +23,7 @@ struct ChartPoint {
 struct ChartSeries {
   std::string name;
   std::vector<std::vector<ChartPoint>> ladders;
+  bool squares = false; ///< marks of another kind than the others': `keys` of the chart says which
 };
 
 /// A vertical line at an error, e.g. where the truth itself is no better known.
@@ -37,6 +38,7 @@ struct Chart {
   std::vector<ChartLine> lines;
   bool guides = true;                  ///< slopes: work ~ error^(-1/p) for orders p = 1, 2, 4
   std::string labels = {};             ///< what the labels of marks are, for the legend
+  std::vector<std::string> keys = {};  ///< lines of the legend below the names: what its marks mean
   std::vector<std::string> notes = {}; ///< below the chart
   bool curves = false; ///< each ladder is one course: lines that dashes tell apart too, a mark at the end
                        ///< only, neither front nor guides; the first is drawn heavier

@@ -1,5 +1,6 @@
 #include "sim/run/simulation.h"
 
+#include "sim/levels/processor_time.h"
 #include "sim/run/unrest.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
                    const std::atomic<bool>& stop, RunResult earlier) {
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
+  const double used_before = levels::processor_seconds();
   RunResult result = std::move(earlier);
   result.sentence = all_done(steps);
   constexpr std::uint64_t foreseen = 1u
@@ -66,6 +68,7 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
                                   result.rows.size(), steps);
   if (const std::string unrest = unrest_text(result.rows); !unrest.empty()) result.sentence += " " + unrest;
   result.wall_seconds += std::chrono::duration<double>(Clock::now() - began).count();
+  result.processor_seconds = levels::processor_seconds() - used_before;
   return result;
 }
 

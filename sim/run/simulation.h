@@ -16,6 +16,7 @@ struct RunResult {
   std::string sentence; ///< how it ended, for people
   std::vector<levels::StepRow> rows;
   double wall_seconds = 0;
+  double processor_seconds = 0; ///< of all threads, without an earlier process
 };
 
 /// Receives every good step as it happens.

@@ -38,9 +38,14 @@ std::string default_x(const CsvTable& table) {
 std::string default_y(const CsvTable& table) {
   const std::string hardware = heading_of(&PointRow::hardware_seconds);
   std::string host = heading_of(&PointRow::host_seconds);
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    if (is_finished(table, r) && is_rival(table.text(r, heading_of(&Point::method)))) return host;
+  if (has_rivals(table)) return host;
   return has_numbers(table, hardware) ? hardware : host;
+}
+
+bool has_rivals(const CsvTable& table) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    if (is_finished(table, r) && is_rival(table.text(r, heading_of(&Point::method)))) return true;
+  return false;
 }
 
 void expect_column(const CsvTable& table, const std::string& flag, const std::string& name) {

@@ -12,6 +12,9 @@ std::string default_x(const files::CsvTable& table);
 /// the judge and no competitor.
 std::string default_y(const files::CsvTable& table);
 
+/// Whether a finished point is of an integrator that has no hardware.
+bool has_rivals(const files::CsvTable& table);
+
 /// Throws input::InputError, which names `flag`, where the table has no such column.
 void expect_column(const files::CsvTable& table, const std::string& flag, const std::string& name);
 bool has_role(const std::string& heading, Role role);

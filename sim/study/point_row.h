@@ -94,8 +94,9 @@ inline constexpr ResultColumn all_result_columns[] = {
      &PointRow::hardware_seconds, Role::work},
     {"array_seconds", "s", "the array's part of it, without the bus", &PointRow::array_seconds, Role::work},
     {"host_seconds", "s",
-     "the motion alone, without the reference's judgement of its steps, on this machine: the one column that "
-     "differs from run to run",
+     "processor time of this machine (all threads) for the motion alone, without the reference's judgement "
+     "of "
+     "its steps; of an array it is that of the emulation. The one column that differs from run to run",
      &PointRow::host_seconds, Role::work},
     {"multiplies", "",
      "of all sweeps of an array (0 for other methods): one for each input, one for R·u, one by the "

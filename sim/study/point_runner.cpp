@@ -79,7 +79,7 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
   PointRow row;
   row.outcome = result.outcome;
   row.sentence = result.sentence;
-  row.host_seconds = std::max(0.0, result.wall_seconds - motion->judging_seconds());
+  row.host_seconds = std::max(0.0, result.processor_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);
   row.omega = scene::largest_frequency(mesh.mesh());
   row.stability = classify(result.rows, facts_of(inputs, mesh, result));

@@ -97,23 +97,47 @@ void thin_labels(std::size_t marks, pictures::Chart& chart) {
       for (std::size_t k = 1; k + 1 < ladder.size(); ++k) ladder[k].label.clear();
 }
 
-// A colour a method; where one only is drawn, a colour for each place of the first axis.
-void add_series(const Choice& c, const std::vector<PointGroup>& groups, pictures::Chart& chart) {
+/// A mark for each group that is drawn, in the series that `name` gives it; returns how many.
+template <class Name>
+std::size_t add_marks(const Choice& c, const std::vector<PointGroup>& groups, bool squares,
+                      pictures::Chart& chart, Name name) {
   std::map<std::vector<std::string>, std::size_t> ladders;
-  std::map<std::string, std::size_t> methods;
-  for (const PointGroup& group : groups)
-    if (c.is_drawn(group)) ++methods[c.method(group)];
-  const bool one = methods.size() == 1 && c.axes.kept.size() > 1;
   std::size_t marks = 0;
   for (const PointGroup& group : groups) {
     if (!c.is_drawn(group)) continue;
     ++marks;
-    const std::string first = one ? c.table.header[c.axes.kept[0]] + ' ' + c.cell(group, c.axes.kept[0]) : "";
-    pictures::ChartSeries& series = series_named(chart, one ? first : c.method(group));
+    pictures::ChartSeries& series = series_named(chart, name(group));
+    series.squares = squares;
     const auto [place, fresh] = ladders.try_emplace(ladder_of(c, group), series.ladders.size());
     if (fresh) series.ladders.emplace_back();
     series.ladders[place->second].push_back(point_of(c, group));
   }
+  return marks;
+}
+
+/// Beside integrators that have no hardware, an array stands with its time on hardware too.
+std::size_t add_hardware(const Choice& c, pictures::Chart& chart) {
+  const std::string hardware = heading_of(&PointRow::hardware_seconds);
+  const Choice other{c.table, c.x, hardware, c.axes};
+  const std::size_t marks =
+      add_marks(other, groups_of(c.table, c.axes, c.x, hardware), true, chart,
+                [&](const PointGroup& group) { return c.method(group) + ", on hardware"; });
+  if (marks == 0) return 0;
+  chart.keys = {"dots: time of a processor; of an", "array, that of emulating it",
+                "squares: the array's cycles and the bus's,", "at the array's clock (hardware_seconds)"};
+  return marks;
+}
+
+// A colour a method; where one only is drawn, a colour for each place of the first axis.
+void add_series(const Choice& c, const std::vector<PointGroup>& groups, pictures::Chart& chart) {
+  std::map<std::string, std::size_t> methods;
+  for (const PointGroup& group : groups)
+    if (c.is_drawn(group)) ++methods[c.method(group)];
+  const bool one = methods.size() == 1 && c.axes.kept.size() > 1;
+  std::size_t marks = add_marks(c, groups, false, chart, [&](const PointGroup& group) {
+    return one ? c.table.header[c.axes.kept[0]] + ' ' + c.cell(group, c.axes.kept[0]) : c.method(group);
+  });
+  if (c.y == heading_of(&PointRow::host_seconds) && has_rivals(c.table)) marks += add_hardware(c, chart);
   thin_labels(marks, chart);
 }
 

@@ -159,8 +159,8 @@ StudyEnd run_study(const Study& study, const StudyOrder& order) {
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return {run::Outcome::finished,
-          fmt::format("{}: {} points in {:.1f} s: {}\nResults\n  {}\n", study.name, study.combinations(),
-                      seconds, counts, (order.folder / "results.csv").string())};
+          fmt::format("{}: {} points in {:.1f} s of wall time: {}\nResults\n  {}\n", study.name,
+                      study.combinations(), seconds, counts, (order.folder / "results.csv").string())};
 }
 
 } // namespace hopmesh::study

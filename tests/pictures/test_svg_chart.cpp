@@ -75,6 +75,19 @@ TEST(SvgChart, ASeriesWithoutAMarkIsNotInTheLegend) {
   EXPECT_THAT(svg, HasSubstr(">somebody</text>"));
 }
 
+TEST(SvgChart, MarksOfAnotherKindAreSquaresThatTheLegendTells) {
+  Chart chart;
+  const ChartPoint failed{0, 2, true, "", ""};
+  chart.series = {{"core", {{{1, 1, false, "", ""}}}}, {"array", {{{2, 1, false, "", ""}, failed}}, true}};
+  chart.keys = {"squares: another clock"};
+  const std::string svg = svg_of(chart);
+  EXPECT_EQ(count_of(svg, "<circle "), 2u) << "a mark, and its place in the legend";
+  EXPECT_EQ(count_of(svg, "</circle>"), 1u);
+  EXPECT_EQ(count_of(svg, "width=\"10\" height=\"10\""), 3u);
+  EXPECT_EQ(count_of(svg, "class=\"point failed\""), 1u);
+  EXPECT_THAT(svg, HasSubstr(">squares: another clock</text>"));
+}
+
 TEST(SvgChart, BarsReachFromTheLeastToTheLargest) {
   Chart chart;
   ChartPoint wide{1, 1, false, "", ""}, from_zero{2, 1, false, "", ""}, alone{3, 1, false, "", ""};

@@ -1,7 +1,9 @@
 // The time-step loop with a motion that does what it is told.
 #include "sim/run/simulation.h"
 
+#include <chrono>
 #include <gmock/gmock.h>
+#include <thread>
 
 namespace hopmesh::tests {
 namespace {
@@ -57,6 +59,20 @@ TEST_F(Simulate, DoesAllStepsAndShowsThemToEverybody) {
   EXPECT_THAT(first.steps, ::testing::ElementsAre(0, 1, 2, 3));
   EXPECT_EQ(second.steps, first.steps);
   EXPECT_GE(result.wall_seconds, 0);
+}
+
+// A figure of the machine that neighbours and sleep would spoil is counted on the processor, not on the wall.
+TEST_F(Simulate, SleepIsWallTimeAndNoProcessorTime) {
+  struct Sleeper : ToldMotion {
+    levels::StepRow advance() override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      return ToldMotion::advance();
+    }
+  } sleeper;
+  const auto result = run::simulate(sleeper, 3, {}, stop);
+  EXPECT_GE(result.wall_seconds, 0.09);
+  EXPECT_GT(result.processor_seconds, 0);
+  EXPECT_LT(result.processor_seconds, 0.045);
 }
 
 TEST_F(Simulate, OneStepIsNotSeveral) {

@@ -76,8 +76,8 @@ int campaign(const FuzzOptions& o, const Ways& all) {
         all, plan, [&](std::uint64_t cases) { progress.count(cases); }, levels::stop_requested);
   }
   const double rate = r.seconds > 0 ? static_cast<double>(r.cases) / r.seconds : 0;
-  fmt::print("seed {}, cases {} to {}: {} equal, {} different; {:.1f} s, {:.0f} cases/s\n", o.seed, o.first,
-             r.next, grouped(r.cases), r.finding ? 1 : 0, r.seconds, rate);
+  fmt::print("seed {}, cases {} to {}: {} equal, {} different; {:.1f} s of wall time, {:.0f} cases/s\n",
+             o.seed, o.first, r.next, grouped(r.cases), r.finding ? 1 : 0, r.seconds, rate);
   if (r.finding) return tell(o, all, *r.finding);
   if (!r.interrupted) return done;
   fmt::print("interrupted; to go on: {}\n", command_of(o, r.next));

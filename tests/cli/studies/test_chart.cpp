@@ -55,6 +55,16 @@ TEST_F(CliChart, IntegratorsThatCompeteAreTimedHere) {
                            "\"motion.time_step\" = [0.001, 0.002]\n\"mesh.grid.rows\" = [4]\n");
   good("sweep s.toml --out r");
   EXPECT_THAT(good("chart r").out, HasSubstr("host_seconds against"));
+  const std::string chart = svg("r");
+  EXPECT_EQ(count_of(chart, "<circle "), 4u + 2u) << "both methods on this processor, and the legend";
+  EXPECT_EQ(count_of(chart, "width=\"10\" height=\"10\""), 2u + 1u)
+      << "the array on hardware, and the legend";
+  EXPECT_THAT(chart, HasSubstr(">engine, on hardware</text>"));
+  EXPECT_THAT(chart, HasSubstr("(hardware_seconds)</text>"));
+  const Table t = read_table(at("r") / "results.csv");
+  EXPECT_THAT(chart, HasSubstr("hardware_seconds: " + t.column.at("hardware_seconds")[0]));
+  EXPECT_THAT(good("chart r --y sweeps --out v").out, HasSubstr("sweeps against"));
+  EXPECT_THAT(svg("v"), Not(HasSubstr("on hardware"))) << "sweeps are no time";
 }
 
 TEST_F(CliChart, OverSeedsAMarkIsTheMedianWithItsSpread) {
