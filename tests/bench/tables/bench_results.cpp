@@ -26,7 +26,7 @@ double Samples::largest() const {
 // Google Benchmark appends its settings to a name: "/iterations:1/repeats:9", "/min_time:0.1/real_time".
 std::string without_settings(const std::string& name) {
   std::size_t end = name.size();
-  for (const char* setting : {"/iterations:", "/min_time:", "/repeats:", "/real_time"})
+  for (const char* setting : {"/iterations:", "/min_time:", "/repeats:", "/real_time", "/manual_time"})
     end = std::min(end, name.find(setting));
   return name.substr(0, end);
 }
