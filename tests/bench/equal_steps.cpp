@@ -25,11 +25,14 @@ double square(const Vector& a, const Vector& b) {
   return (a - b).squaredNorm() / static_cast<double>(a.size() / 3);
 }
 
-/// What integrators know of an array's state. Before the first step the array keeps a past that is none.
-StepState motion_of(StepState state) {
+/// What integrators know of an array's state. Of nodes that never move the firmware keeps no past, so the
+/// past is taken from the state before, where there is one.
+StepState motion_of(StepState state, const StepState* before) {
   state.output.clear();
   state.acceleration.clear();
-  if (state.step == 0) state.previous_position.clear(), state.previous_velocity.clear();
+  const bool looks_back = before && !state.previous_position.empty();
+  state.previous_position = looks_back ? before->position : std::vector<double>();
+  state.previous_velocity = looks_back ? before->velocity : std::vector<double>();
   return state;
 }
 
@@ -82,10 +85,12 @@ EqualSteps::EqualSteps(const std::string& scene, const std::vector<std::string>&
   Timed array(prepared_);
   levels::ExactStep exact(prepared_.inputs.scene, *prepared_.mesh);
   double squares = 0;
+  StepState before;
   for (std::size_t left = steps_of(prepared_, most_steps); left > 0; --left) {
     const StepState start = array.mover().state();
+    exact.restore(motion_of(start, starts_.empty() ? nullptr : &before), {});
     starts_.push_back(state_of(start.position, start.velocity));
-    exact.restore(motion_of(start), {});
+    before = start;
     exact.advance();
     ends_.push_back(vector_of(exact.positions()));
     array.advance();

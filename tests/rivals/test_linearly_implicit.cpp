@@ -10,14 +10,14 @@ namespace {
 
 using namespace rivals;
 
-constexpr double dt = 0.03;
+constexpr double step_length = 0.03;
 
 /// A spring's 3 x 3 stiffness from its definition, L/l at most 1, and its force on its first node.
-struct Pull {
+struct Spring {
   Eigen::Matrix3d stiffness;
   Eigen::Vector3d force;
 };
-Pull pull_of(const scene::Spring& spring, const Eigen::Vector3d& span) {
+Spring spring_of(const scene::Spring& spring, const Eigen::Vector3d& span) {
   const double k = 2 * spring.weight, length = span.norm(), ratio = spring.rest_length / length;
   const Eigen::Matrix3d along = span * span.transpose() / (length * length);
   return {k * (std::min(ratio, 1.0) * along + (1 - std::min(ratio, 1.0)) * Eigen::Matrix3d::Identity()),
@@ -36,7 +36,7 @@ Dense dense_about(const scene::Mesh& mesh, const Vector& x, double inertia) {
     const Eigen::Index a = spring.node[0], b = spring.node[1];
     Eigen::Vector3d span;
     for (Eigen::Index p = 0; p < 3; ++p) span[p] = x[p * n + b] - x[p * n + a];
-    const Pull pull = pull_of(spring, span);
+    const Spring pull = spring_of(spring, span);
     for (Eigen::Index p = 0; p < 3; ++p) {
       all.force[p * n + a] += pull.force[p], all.force[p * n + b] -= pull.force[p];
       for (Eigen::Index q = 0; q < 3; ++q) {
@@ -53,8 +53,10 @@ Dense dense_about(const scene::Mesh& mesh, const Vector& x, double inertia) {
 /// Where the step linearised about `place` ends: of what moves, the solution of m/dt^2 (1 + c dt) (x - y) =
 /// F(place) - K (x - place).
 Vector dense_step(const scene::Mesh& mesh, const Physics& physics, const State& state, const Vector& place) {
-  const double braked = physics.slowed(dt), inertia = physics.mass() * braked / (dt * dt);
-  const Vector y = state.position + dt / braked * (state.velocity + dt * physics.external());
+  const double braked = physics.slowed(step_length),
+               inertia = physics.mass() * braked / (step_length * step_length);
+  const Vector y =
+      state.position + step_length / braked * (state.velocity + step_length * physics.external());
   const Dense all = dense_about(mesh, place, inertia);
   std::vector<Eigen::Index> moves;
   for (Eigen::Index k = 0; k < y.size(); ++k)
@@ -67,8 +69,9 @@ Vector dense_step(const scene::Mesh& mesh, const Physics& physics, const State& 
 
 /// Where the step would end with the acceleration of the step before; in the first, without springs.
 Vector expected_place(const Physics& physics, const State& now, const State* before) {
-  if (before) return now.position + dt * (now.velocity + (now.velocity - before->velocity));
-  return now.position + dt / physics.slowed(dt) * (now.velocity + dt * physics.external());
+  if (before) return now.position + step_length * (now.velocity + (now.velocity - before->velocity));
+  return now.position +
+         step_length / physics.slowed(step_length) * (now.velocity + step_length * physics.external());
 }
 
 /// Stretched, compressed and turned springs; every free coordinate with a speed of its own.
@@ -86,7 +89,7 @@ void expect_dense_steps(const scene::Mesh& mesh) {
   const Physics physics(mesh, banner_air);
   Options options;
   options.tolerance = 1e-14;
-  const auto method = make_method("linearly_implicit", physics, dt, options);
+  const auto method = make_method("linearly_implicit", physics, step_length, options);
   method->start_from(disturbed(physics));
   State before;
   for (int k = 0; k < 5; ++k) {
@@ -95,7 +98,7 @@ void expect_dense_steps(const scene::Mesh& mesh) {
     const Vector x = dense_step(mesh, physics, now, expected_place(physics, now, k > 0 ? &before : nullptr));
     before = now;
     ASSERT_LT((method->state().position - x).lpNorm<Eigen::Infinity>(), 1e-11) << "step " << k;
-    ASSERT_LT((method->state().velocity - (x - now.position) / dt).lpNorm<Eigen::Infinity>(), 1e-9);
+    ASSERT_LT((method->state().velocity - (x - now.position) / step_length).lpNorm<Eigen::Infinity>(), 1e-9);
   }
 }
 
@@ -122,7 +125,7 @@ TEST(ImplicitRivals, StopWhereTheyAreTold) {
     for (const double tolerance : {1e-10, 1e-5, 1e-3}) {
       Options options;
       options.tolerance = tolerance;
-      const auto method = make_method(name, physics, dt, options);
+      const auto method = make_method(name, physics, step_length, options);
       method->start_from(disturbed(physics));
       method->advance();
       if (exact.size() == 0) exact = method->positions();
