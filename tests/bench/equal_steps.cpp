@@ -132,6 +132,7 @@ double EqualSteps::equal_tolerance(const std::string& method) const {
     before = now;
     narrow -= 1;
   }
+  if (narrow == 0) return 1; // an iteration that moves by less is the first one
   double wide = narrow + 1;
   while (wide - narrow > 1e-3) {
     const double middle = (narrow + wide) / 2;
