@@ -34,6 +34,13 @@ enum class Output : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> output_names{"modified", "binary"};
 
+/// Who normalises and moves V where neurons share elements.
+enum class Stages : std::uint8_t {
+  each, ///< an output stage behind every element, which takes one neuron at a time
+  one   ///< a single one behind all of them, a pipeline that takes a neuron every cycle
+};
+inline constexpr std::array<std::string_view, 2> stages_names{"each", "one"};
+
 inline std::string_view name_of(Schedule s) {
   return schedule_names[static_cast<std::size_t>(s)];
 }
@@ -42,6 +49,9 @@ inline std::string_view name_of(Normaliser n) {
 }
 inline std::string_view name_of(Output o) {
   return output_names[static_cast<std::size_t>(o)];
+}
+inline std::string_view name_of(Stages s) {
+  return stages_names[static_cast<std::size_t>(s)];
 }
 
 /// Number format of each class of signals: those of the preset `guarded`.
@@ -84,8 +94,16 @@ struct ArraySpec {
   std::string name = "guarded";
   /// Which neurons fire together: decides bits (who reads new values) and cycles (phases of a sweep).
   Schedule schedule = Schedule::coloured;
-  /// Multipliers per neuron: taps of a row taken per cycle. Changes bits only if the accumulator rounds.
+  /// Multipliers of an element, or of a neuron where each has its own: taps of a row taken per cycle. Changes
+  /// bits only if the accumulator rounds.
   int lanes = 1;
+  /// Processing elements that the neurons of a phase share, round by round (rounds.h); 0: one a neuron.
+  /// Changes cycles, never bits.
+  int elements = 0;
+  /// Output stages of those elements; not looked at where elements is 0.
+  Stages stages = Stages::each;
+  /// Registers inside normalise and output beyond those of the page: each makes a stage a cycle longer.
+  int pipeline = 0;
   /// How V follows from s.
   Output output = Output::modified;
   /// How s / N is made; a binary output has none, and this is not looked at.
@@ -109,6 +127,22 @@ inline bool sums_norm(const ArraySpec& a) {
 /// Is there a reciprocal of N in the cell?
 inline bool has_reciprocal(const ArraySpec& a) {
   return a.output == Output::modified && a.normaliser == Normaliser::reciprocal;
+}
+
+/// Do neurons share elements?
+inline bool is_folded(const ArraySpec& a) {
+  return a.elements > 0;
+}
+
+/// Is there a single output stage for all elements?
+inline bool shares_stage(const ArraySpec& a) {
+  return is_folded(a) && a.stages == Stages::one;
+}
+
+/// Places for registers inside normalise and output (docs/hardware/cycles.md, "Registers inside a stage").
+inline int most_pipeline(const ArraySpec& a) {
+  if (a.output == Output::binary) return 0;
+  return a.normaliser == Normaliser::prescaled ? 3 : 4;
 }
 
 /// Width that holds every sum of a row of `taps` products and its bias without loss
