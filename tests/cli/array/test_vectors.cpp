@@ -50,7 +50,7 @@ TEST_F(CliVectors, AnotherCoreFillsInRandomCasesAndIsRight) {
 }
 
 TEST_F(CliVectors, AnotherCoreFillsInAStepOfAFlagOnEveryPreset) {
-  for (const char* preset : {"guarded", "descent", "prescaled", "byte"}) {
+  for (const char* preset : {"guarded", "descent", "prescaled", "byte", "folded"}) {
     good(std::string("vectors flag-225 --step 1 --sweeps 5 --blank --out b.txt --array ") + preset);
     fill_in("b.txt", "f.txt");
     EXPECT_THAT(good("vectors --check f.txt --level systemc").out, HasSubstr("all right (level systemc)"));
