@@ -18,11 +18,18 @@ class InputAccumulator : public sc_core::sc_module {
   InputAccumulator(sc_core::sc_module_name name, const Datapath& path, const std::vector<std::size_t>& taps);
 
   /// Wires of the row's next source, in the order of taps.
-  void connect(const std::int32_t* source, std::size_t row = 0) { rows_[row].sources.push_back(source); }
+  void connect(const std::int32_t* source, std::size_t row = 0) {
+    rows_[row].sources[rows_[row].connected++] = source;
+  }
   /// `bank`: places from the wires as connected to those that are read, where links have banks.
-  void select(std::size_t row, std::ptrdiff_t bank = 0) { row_ = &rows_[row], bank_ = bank; }
+  void select(std::size_t row, std::ptrdiff_t bank = 0) {
+    const Row& r = rows_[row];
+    at_ = {r.weights.data(), r.sources.data(), r.sources.data() + r.sources.size(), r.weights.size(), r.bias};
+    selected_ = row;
+    bank_ = bank;
+  }
 
-  std::size_t taps() const { return row_->weights.size(); }
+  std::size_t taps() const { return at_.taps; }
   std::size_t beats() const { return (taps() + path_.lanes - 1) / path_.lanes; }
 
   void begin_sum();             ///< s <- bias
@@ -38,7 +45,10 @@ class InputAccumulator : public sc_core::sc_module {
   std::int32_t weight(std::size_t tap, std::size_t row = 0) const { return rows_[row].weights[tap]; }
   std::int32_t bias(std::size_t row = 0) const { return rows_[row].bias; }
   void set_weight(std::size_t tap, std::int32_t raw, std::size_t row = 0) { rows_[row].weights[tap] = raw; }
-  void set_bias(std::int32_t raw, std::size_t row = 0) { rows_[row].bias = raw; }
+  void set_bias(std::int32_t raw, std::size_t row = 0) {
+    rows_[row].bias = raw;
+    if (row == selected_) at_.bias = raw;
+  }
 
   void trace(sc_core::sc_trace_file* file) const override;
 
@@ -46,6 +56,7 @@ class InputAccumulator : public sc_core::sc_module {
   struct Row {
     std::vector<std::int32_t> weights;
     std::vector<const std::int32_t*> sources;
+    std::size_t connected = 0; ///< sources so far
     std::int32_t bias = 0;
   };
 
@@ -54,10 +65,17 @@ class InputAccumulator : public sc_core::sc_module {
   void add(std::int64_t products);
 
   const Datapath& path_;
-  std::vector<Row> rows_;
-  const Row* row_; ///< the selected one
+  /// The selected row, at hand: what it is made of lies elsewhere.
+  struct {
+    const std::int32_t* weights;
+    const std::int32_t *const *sources, *const *sources_end;
+    std::size_t taps;
+    std::int32_t bias;
+  } at_;
   std::ptrdiff_t bank_ = 0;
   std::int64_t sum_ = 0, norm_ = 0;
+  std::size_t selected_ = 0;
+  std::vector<Row> rows_;
 };
 
 } // namespace hopmesh::systemc

@@ -17,7 +17,8 @@ std::int64_t limited(std::int64_t x, std::int64_t bound) {
 } // namespace
 
 OutputStage::OutputStage(sc_core::sc_module_name name, const Datapath& path, std::size_t neurons)
-    : sc_module(name), path_(path), memory_(neurons) {}
+    : sc_module(name), path_(path), many_(neurons == 1 ? 0 : neurons),
+      memory_(neurons == 1 ? &only_ : many_.data()) {}
 
 // N lies in [2^(B-1), 2^B); its reciprocal's mantissa is cut, never rounded up, so that |u| <= |s| / N.
 void OutputStage::set_norm(std::int64_t norm_raw, std::size_t place) {

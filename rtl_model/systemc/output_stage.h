@@ -47,8 +47,10 @@ class OutputStage : public sc_core::sc_module {
   Wide exact_ratio(std::int64_t sum_raw, std::int64_t norm) const;
 
   const Datapath& path_;
-  std::vector<Memory> memory_;
   std::int64_t drive_ = 0, delta_ = 0;
+  Memory only_; ///< of a stage that has a single neuron: beside its registers
+  std::vector<Memory> many_;
+  Memory* const memory_; ///< one or the other, by place
 };
 
 } // namespace hopmesh::systemc
