@@ -38,10 +38,8 @@ inline Allowed bits(const SignalClass& signal) {
 
 // The rows below are in the order of array files.
 
-inline ArrayKeys structure_keys(ArraySpec& a) {
-  const bool modified = a.output == Output::modified;
-  const char* const with_modified = "array.output = \"modified\"";
-  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+/// Who is summed when, and by how much hardware.
+inline ArrayKeys element_keys(ArraySpec& a) {
   return {
       ArrayKey("array.schedule", choice(a.schedule, schedule_names),
                "who fires together: neurons of a colour, one after the other, all at once")
@@ -60,6 +58,15 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .counts_only(is_folded(a), "array.elements above 0")
           .in_vectors(7)
           .plain(Stages::each),
+  };
+}
+
+/// From a sum to V.
+inline ArrayKeys stage_keys(ArraySpec& a) {
+  const bool modified = a.output == Output::modified;
+  const char* const with_modified = "array.output = \"modified\"";
+  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+  return {
       ArrayKey("array.output", choice(a.output, output_names), "V moves by R · s / N; or V is the sign of s")
           .in_vectors(2)
           .plain(Output::modified),
@@ -79,6 +86,11 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .allows(detail::numbers(0, most_registers))
           .in_vectors(8)
           .plain(0),
+  };
+}
+
+inline ArrayKeys clock_keys(ArraySpec& a) {
+  return {
       ArrayKey("array.bus_bits", &a.bus_bits, "data width of the host bus")
           .in_unit("bits")
           .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
@@ -106,8 +118,9 @@ inline ArrayKeys format_keys(ArraySpec& a) {
 }
 
 inline ArrayKeys array_keys(ArraySpec& a) {
-  ArrayKeys all = structure_keys(a);
-  for (const ArrayKey& key : format_keys(a)) all.push_back(key);
+  ArrayKeys all;
+  for (const auto& some : {element_keys(a), stage_keys(a), clock_keys(a), format_keys(a)})
+    all.insert(all.end(), some.begin(), some.end());
   return all;
 }
 

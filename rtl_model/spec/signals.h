@@ -41,8 +41,8 @@ inline NeuronSignals neuron_signals(const Formats& built) {
 }
 
 /// Of a folded array. Of the scope of an element: the neuron whose row it adds, and its hold register, where
-/// stages are shared. Of the scope of a stage: the neuron whose u it shows. Beside them stand the registers of
-/// accumulators and output stages, and of each neuron V.
+/// stages are shared. Of the scope of a stage: the neuron whose u it shows. Beside them stand the registers
+/// of accumulators and output stages, and of each neuron V.
 inline constexpr Signal worked_signal{"neuron", 32};
 inline constexpr Signal held_signal{"held", 64};
 inline std::string element_scope(std::size_t element) {

@@ -22,7 +22,7 @@ void FoldedArray::make_elements() {
     for (const auto& phase : fold_.order) all.insert(all.end(), phase.begin(), phase.end());
     shared_ = std::make_unique<PipelinedStage>(spec::stage_scope, context_, links_, all);
   }
-  fold_context_ = std::make_unique<FoldContext>(FoldContext{context_, fold_, links_, shared_.get()});
+  fold_context_ = std::make_unique<FoldContext>(FoldContext{context_, links_, shared_.get()});
   homes_.resize(topology().neurons());
   for (std::size_t e = 0; e < static_cast<std::size_t>(array().elements); ++e) {
     const ElementRows rows = element_rows(array(), fold_, e);

@@ -11,7 +11,6 @@ namespace hopmesh::systemc {
 /// What the elements of an array share. `shared`: the stage, where there is one for all.
 struct FoldContext {
   const ArrayContext& array;
-  const spec::Fold& fold;
   LinkMemory& links;
   PipelinedStage* shared;
 };
