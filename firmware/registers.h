@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #define HM_ID_VALUE 0x484F504Du /* "HOPM" */
-#define HM_VERSION_VALUE 0x00010001u
+#define HM_VERSION_VALUE 0x00010002u
 
 /* X(NAME, offset, access, reset, meaning). Access: RO read only; RW read and write; WO reads as zero;
    W1C reads as it is, a written 1 clears the bit. A reset of 0 for a capability: set when the array is built.
@@ -24,7 +24,7 @@
   X(CAP_SCHEDULE, 0x01C, RO, 0, "0 coloured, 1 sequential, 2 synchronous")                                   \
   X(CAP_NORMALISER, 0x020, RO, 0, "0 prescaled rows, 1 reciprocal, 2 divider; none in a binary array")       \
   X(CAP_RECIPROCAL_BITS, 0x024, RO, 0, "width of the reciprocal's mantissa")                                 \
-  X(CAP_LANES, 0x028, RO, 0, "multipliers per neuron")                                                       \
+  X(CAP_LANES, 0x028, RO, 0, "multipliers per neuron, or element")                                           \
   X(CAP_BUS_BITS, 0x02C, RO, 0, "data width of this bus")                                                    \
   X(CAP_FORMAT_WEIGHT, 0x030, RO, 0,                                                                         \
     "format of a weight: width | integer bits << 8 | rounding << 16 | "                                      \
@@ -35,6 +35,10 @@
   X(CAP_FORMAT_LINK, 0x040, RO, 0, "format of V on the links")                                               \
   X(CAP_FORMAT_ACCUMULATOR, 0x044, RO, 0, "format of the input accumulator s")                               \
   X(CAP_OUTPUT, 0x048, RO, 0, "0 modified: V moves by R s / N; 1 binary: V is the sign of s")                \
+  X(CAP_ELEMENTS, 0x04C, RO, 0, "elements that neurons share; 0: one a neuron")                              \
+  X(CAP_STAGES, 0x050, RO, 0,                                                                                \
+    "0 an output stage an element, 1 one for all; nothing where CAP_ELEMENTS is 0")                          \
+  X(CAP_PIPELINE, 0x054, RO, 0, "registers inside normalise and output beyond the least")                    \
   X(CONTROL, 0x080, WO, 0, "bit 0 START, bit 1 RESET: outputs and weights to zero")                          \
   X(STATUS, 0x084, RO, 0, "bit 0 BUSY, bit 1 DONE, bit 2 CONVERGED, of the last run")                        \
   X(IRQ_ENABLE, 0x088, RW, 0, "bit 0 DONE, bit 1 REFUSED: which causes raise the interrupt line")            \
@@ -68,6 +72,7 @@ enum { HM_CONTROL_START = 1, HM_CONTROL_RESET = 2 };
 enum { HM_STATUS_BUSY = 1, HM_STATUS_DONE = 2, HM_STATUS_CONVERGED = 4 };
 enum { HM_IRQ_DONE = 1, HM_IRQ_REFUSED = 2 };
 enum { HM_SCHEDULE_COLOURED, HM_SCHEDULE_SEQUENTIAL, HM_SCHEDULE_SYNCHRONOUS };
+enum { HM_STAGES_EACH, HM_STAGES_ONE };
 enum { HM_OUTPUT_MODIFIED, HM_OUTPUT_BINARY };
 enum { HM_NORMALISER_PRESCALED, HM_NORMALISER_RECIPROCAL, HM_NORMALISER_DIVIDER };
 /* Rounding and overflow modes as the format registers number them (the order of SystemC's sc_q_mode,

@@ -11,6 +11,9 @@ inline constexpr int least_width = 4, most_width = 32; ///< of every format but 
 inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
 inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
 inline constexpr int most_lanes = 64;
+inline constexpr int most_elements = 65536;
+inline constexpr int most_registers =
+    4; ///< of a pipeline; most_pipeline knows how many a normaliser can have
 inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
 inline constexpr double most_mhz = 10000;
 
@@ -35,19 +38,35 @@ inline Allowed bits(const SignalClass& signal) {
 
 // The rows below are in the order of array files.
 
-inline ArrayKeys structure_keys(ArraySpec& a) {
-  const bool modified = a.output == Output::modified;
-  const char* const with_modified = "array.output = \"modified\"";
-  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+/// Who is summed when, and by how much hardware.
+inline ArrayKeys element_keys(ArraySpec& a) {
   return {
       ArrayKey("array.schedule", choice(a.schedule, schedule_names),
                "who fires together: neurons of a colour, one after the other, all at once")
           .in_vectors(1)
           .plain(Schedule::sequential),
-      ArrayKey("array.lanes", &a.lanes, "multipliers a neuron: inputs taken a cycle")
+      ArrayKey("array.lanes", &a.lanes, "multipliers a neuron, or an element: inputs taken a cycle")
           .allows(detail::numbers(1, most_lanes))
           .in_vectors(5)
           .plain(1),
+      ArrayKey("array.elements", &a.elements,
+               "processing elements that the neurons of a phase share; 0: one a neuron")
+          .allows(detail::numbers(0, most_elements))
+          .in_vectors(6)
+          .plain(0),
+      ArrayKey("array.stages", choice(a.stages, stages_names), "an output stage an element, or one for all")
+          .counts_only(is_folded(a), "array.elements above 0")
+          .in_vectors(7)
+          .plain(Stages::each),
+  };
+}
+
+/// From a sum to V.
+inline ArrayKeys stage_keys(ArraySpec& a) {
+  const bool modified = a.output == Output::modified;
+  const char* const with_modified = "array.output = \"modified\"";
+  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+  return {
       ArrayKey("array.output", choice(a.output, output_names), "V moves by R · s / N; or V is the sign of s")
           .in_vectors(2)
           .plain(Output::modified),
@@ -62,10 +81,20 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .counts_only(has_reciprocal(a), with_reciprocal)
           .in_vectors(4)
           .plain(18),
+      ArrayKey("array.pipeline", &a.pipeline,
+               "more registers inside normalise and output: longer, and a faster clock")
+          .allows(detail::numbers(0, most_registers))
+          .in_vectors(8)
+          .plain(0),
+  };
+}
+
+inline ArrayKeys clock_keys(ArraySpec& a) {
+  return {
       ArrayKey("array.bus_bits", &a.bus_bits, "data width of the host bus")
           .in_unit("bits")
           .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
-          .in_vectors(6)
+          .in_vectors(9)
           .plain(32),
       ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
           .in_unit("MHz")
@@ -74,7 +103,7 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
 }
 
 inline ArrayKeys format_keys(ArraySpec& a) {
-  constexpr int first_line = 7; // of test vectors
+  constexpr int first_line = 10; // of test vectors
   ArrayKeys keys;
   for (const SignalClass& signal : signal_classes) {
     NumberFormat* const format = &(a.formats.*signal.format);
@@ -89,8 +118,9 @@ inline ArrayKeys format_keys(ArraySpec& a) {
 }
 
 inline ArrayKeys array_keys(ArraySpec& a) {
-  ArrayKeys all = structure_keys(a);
-  for (const ArrayKey& key : format_keys(a)) all.push_back(key);
+  ArrayKeys all;
+  for (const auto& some : {element_keys(a), stage_keys(a), clock_keys(a), format_keys(a)})
+    all.insert(all.end(), some.begin(), some.end());
   return all;
 }
 

@@ -56,6 +56,16 @@ inline std::optional<SpecFault> formats_fault(const ArraySpec& a, std::size_t ta
   return accumulator_fault(a, taps);
 }
 
+/// Where the registers of a pipeline find no place. What is below zero is told by the key's own range.
+inline std::optional<SpecFault> pipeline_fault(const ArraySpec& a) {
+  const int most = most_pipeline(a);
+  if (a.pipeline <= most) return std::nullopt;
+  const std::string stage =
+      a.output == Output::binary ? "binary outputs" : "the normaliser " + std::string(name_of(a.normaliser));
+  return SpecFault{"array.pipeline", std::to_string(a.pipeline),
+                   (most == 0 ? "0" : from_to(0, most)) + " with " + stage};
+}
+
 } // namespace detail
 
 /// Nothing if the array can be built for rows of at most `taps` inputs, else the first rule it breaks.
@@ -65,7 +75,7 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   ArraySpec copy = a;
   for (const ArrayKey& key : table(copy))
     if (!key.allowed.takes(key.place)) return SpecFault{key.name, key.value(), key.allowed.words};
-  return std::nullopt;
+  return detail::pipeline_fault(a);
 }
 
 /// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated
@@ -105,8 +115,17 @@ inline ArraySpec byte_array() {
   return a;
 }
 
+/// `folded`: the bits of `guarded` on sixteen elements and one output stage, which an FPGA has room for.
+inline ArraySpec folded_array() {
+  ArraySpec a;
+  a.name = "folded";
+  a.elements = 16;
+  a.stages = Stages::one;
+  return a;
+}
+
 inline std::vector<ArraySpec> presets() {
-  return {guarded_array(), descent_array(), prescaled_array(), byte_array()};
+  return {guarded_array(), descent_array(), prescaled_array(), byte_array(), folded_array()};
 }
 
 /// The array used where none is named; chosen by measurement, docs/decisions/0002-default-array.md.

@@ -3,6 +3,7 @@
 // which cycles.
 #pragma once
 
+#include "rtl_model/spec/array_modes.h"
 #include "rtl_model/spec/number_format.h"
 
 #include <algorithm>
@@ -10,39 +11,6 @@
 #include <vector>
 
 namespace hopmesh::spec {
-
-/// Which neurons fire together, all reading the outputs from before the phase.
-enum class Schedule : std::uint8_t {
-  coloured,   ///< those of one colour of cells: no two of them are joined
-  sequential, ///< one neuron at a time, in number order
-  synchronous ///< all at once; the energy may rise
-};
-inline constexpr std::array<std::string_view, 3> schedule_names{"coloured", "sequential", "synchronous"};
-
-/// How u = s / N is made.
-enum class Normaliser : std::uint8_t {
-  prescaled,  ///< not in the cell: the host divides each row by its N before it loads it
-  reciprocal, ///< s times a truncated reciprocal of N, which each row works out once a run
-  divider     ///< an exact quotient, one bit a cycle
-};
-inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "reciprocal", "divider"};
-
-/// How V follows from s.
-enum class Output : std::uint8_t {
-  modified, ///< a step toward the bound that s points to, by s / N
-  binary    ///< that bound at once, the sign of s; a sum of zero leaves V as it is
-};
-inline constexpr std::array<std::string_view, 2> output_names{"modified", "binary"};
-
-inline std::string_view name_of(Schedule s) {
-  return schedule_names[static_cast<std::size_t>(s)];
-}
-inline std::string_view name_of(Normaliser n) {
-  return normaliser_names[static_cast<std::size_t>(n)];
-}
-inline std::string_view name_of(Output o) {
-  return output_names[static_cast<std::size_t>(o)];
-}
 
 /// Number format of each class of signals: those of the preset `guarded`.
 struct Formats {
@@ -84,8 +52,16 @@ struct ArraySpec {
   std::string name = "guarded";
   /// Which neurons fire together: decides bits (who reads new values) and cycles (phases of a sweep).
   Schedule schedule = Schedule::coloured;
-  /// Multipliers per neuron: taps of a row taken per cycle. Changes bits only if the accumulator rounds.
+  /// Multipliers of an element, or of a neuron where each has its own: taps of a row taken per cycle. Changes
+  /// bits only if the accumulator rounds.
   int lanes = 1;
+  /// Processing elements that the neurons of a phase share, round by round (rounds.h); 0: one a neuron.
+  /// Changes cycles, never bits.
+  int elements = 0;
+  /// Output stages of those elements; not looked at where elements is 0.
+  Stages stages = Stages::each;
+  /// Registers inside normalise and output beyond those of the page: each makes a stage a cycle longer.
+  int pipeline = 0;
   /// How V follows from s.
   Output output = Output::modified;
   /// How s / N is made; a binary output has none, and this is not looked at.
@@ -109,6 +85,22 @@ inline bool sums_norm(const ArraySpec& a) {
 /// Is there a reciprocal of N in the cell?
 inline bool has_reciprocal(const ArraySpec& a) {
   return a.output == Output::modified && a.normaliser == Normaliser::reciprocal;
+}
+
+/// Do neurons share elements?
+inline bool is_folded(const ArraySpec& a) {
+  return a.elements > 0;
+}
+
+/// Is there a single output stage for all elements?
+inline bool shares_stage(const ArraySpec& a) {
+  return is_folded(a) && a.stages == Stages::one;
+}
+
+/// Places for registers inside normalise and output (docs/hardware/cycles.md, "Registers inside a stage").
+inline int most_pipeline(const ArraySpec& a) {
+  if (a.output == Output::binary) return 0;
+  return a.normaliser == Normaliser::prescaled ? 3 : 4;
 }
 
 /// Width that holds every sum of a row of `taps` products and its bias without loss

@@ -30,6 +30,10 @@ static_assert(numbered(HM_OUTPUT_MODIFIED, Output::modified));
 static_assert(numbered(HM_OUTPUT_BINARY, Output::binary));
 static_assert(output_names.size() == HM_OUTPUT_BINARY + 1);
 
+static_assert(numbered(HM_STAGES_EACH, Stages::each));
+static_assert(numbered(HM_STAGES_ONE, Stages::one));
+static_assert(stages_names.size() == HM_STAGES_ONE + 1);
+
 static_assert(numbered(HM_RND, Rounding::rnd));
 static_assert(numbered(HM_RND_ZERO, Rounding::rnd_zero));
 static_assert(numbered(HM_RND_MIN_INF, Rounding::rnd_min_inf));
@@ -59,7 +63,7 @@ struct RegisterWord {
 };
 
 /// Every capability register of an array built for a topology; `phases`: of a sweep.
-inline std::array<RegisterWord, 17> capability_words(const ArraySpec& a, const Topology& t,
+inline std::array<RegisterWord, 20> capability_words(const ArraySpec& a, const Topology& t,
                                                      std::size_t phases) {
   const auto word = [](auto value) { return static_cast<std::uint32_t>(value); };
   const Formats f = built_formats(a, t.most_taps());
@@ -79,7 +83,10 @@ inline std::array<RegisterWord, 17> capability_words(const ArraySpec& a, const T
            {HM_REG_CAP_FORMAT_STATE, format_word(f.state)},
            {HM_REG_CAP_FORMAT_LINK, format_word(f.link)},
            {HM_REG_CAP_FORMAT_ACCUMULATOR, format_word(f.accumulator)},
-           {HM_REG_CAP_OUTPUT, word(a.output)}}};
+           {HM_REG_CAP_OUTPUT, word(a.output)},
+           {HM_REG_CAP_ELEMENTS, word(a.elements)},
+           {HM_REG_CAP_STAGES, word(a.stages)},
+           {HM_REG_CAP_PIPELINE, word(a.pipeline)}}};
 }
 
 } // namespace hopmesh::spec

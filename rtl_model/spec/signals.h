@@ -18,7 +18,7 @@ inline constexpr Signal irq_signal{"irq", 1};
 namespace sequencer_signals {
 inline constexpr const char* scope = "sequencer";
 inline constexpr Signal clock{"clock", 1};
-inline constexpr Signal segment{"segment", 32}; ///< a number of Segment, of schedule.h
+inline constexpr Signal segment{"segment", 32}; ///< a number of Segment, of cycles.h
 inline constexpr Signal beat{"beat", 64};       ///< cycle of the segment
 inline constexpr Signal busy{"busy", 1};
 inline constexpr Signal sweeps{"sweeps", 64};
@@ -39,6 +39,16 @@ inline NeuronSignals neuron_signals(const Formats& built) {
           {"delta", built.state.width + 1}, // R u may reach 2
           {"V", built.state.width}};
 }
+
+/// Of a folded array. Of the scope of an element: the neuron whose row it adds, and its hold register, where
+/// stages are shared. Of the scope of a stage: the neuron whose u it shows. Beside them stand the registers
+/// of accumulators and output stages, and of each neuron V.
+inline constexpr Signal worked_signal{"neuron", 32};
+inline constexpr Signal held_signal{"held", 64};
+inline std::string element_scope(std::size_t element) {
+  return "element_" + std::to_string(element);
+}
+inline constexpr const char* stage_scope = "stage";
 
 /// Scopes of the array, of a cell in it and of a neuron in that.
 inline constexpr const char* cells_scope = "cells";

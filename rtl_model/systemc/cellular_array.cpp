@@ -6,15 +6,11 @@ namespace hopmesh::systemc {
 
 CellularArray::CellularArray(sc_core::sc_module_name name, const spec::ArraySpec& array,
                              const spec::Topology& topology)
-    : sc_module(name), array_(array), topology_(topology),
-      phases_(spec::phases_of(topology_, array_.schedule)),
-      cycles_(spec::cycle_model(array_, topology_, phases_)), period_(1.0 / array.clock_mhz, sc_core::SC_US),
-      detector("detector"), sequencer(spec::sequencer_signals::scope, cycles_, period_, detector),
-      context_{array_,    topology_, Datapath(array_, topology_.most_taps(), topology_.neurons_per_cell),
-               sequencer, detector,  extremes} {
-  const auto phase = spec::phase_of_neurons(topology_, phases_);
-  const std::size_t per_cell = topology_.neurons_per_cell;
-  for (std::size_t c = 0; c < topology_.cells(); ++c) {
+    : NeuronArray(name, array, topology) {
+  const spec::Topology& t = this->topology(); // the array's own, which outlives this call
+  const auto phase = spec::phase_of_neurons(t, phases());
+  const auto per_cell = static_cast<std::size_t>(t.neurons_per_cell);
+  for (std::size_t c = 0; c < t.cells(); ++c) {
     const std::string cell = spec::cell_scope(c);
     cells_.push_back(std::make_unique<Cell>(
         cell.c_str(), context_, c,
@@ -30,9 +26,36 @@ CellularArray::~CellularArray() {
 }
 
 void CellularArray::wire_links() {
-  for (std::size_t c = 0; c < topology_.cells(); ++c)
-    for (std::size_t k = 0; k < topology_.degree(c); ++k)
-      cells_[c]->in[k].bind(cells_[topology_.link_to[topology_.first_link[c] + k]]->out);
+  const spec::Topology& t = topology();
+  for (std::size_t c = 0; c < t.cells(); ++c)
+    for (std::size_t k = 0; k < t.degree(c); ++k)
+      cells_[c]->in[k].bind(cells_[t.link_to[t.first_link[c] + k]]->out);
+}
+
+std::int32_t CellularArray::weight(std::size_t k, std::size_t tap) const {
+  return neuron(k).accumulator.weight(tap);
+}
+void CellularArray::set_weight(std::size_t k, std::size_t tap, std::int32_t raw) {
+  neuron(k).accumulator.set_weight(tap, raw);
+}
+std::int32_t CellularArray::bias(std::size_t k) const {
+  return neuron(k).accumulator.bias();
+}
+void CellularArray::set_bias(std::size_t k, std::int32_t raw) {
+  neuron(k).accumulator.set_bias(raw);
+}
+std::int64_t CellularArray::state_raw(std::size_t k) const {
+  return neuron(k).output.state_raw();
+}
+std::int32_t CellularArray::link_raw(std::size_t k) const {
+  const auto per_cell = static_cast<std::size_t>(topology().neurons_per_cell);
+  return cells_[k / per_cell]->out->wires()[k % per_cell];
+}
+void CellularArray::load(std::size_t k, std::int32_t raw) {
+  neuron(k).load(raw);
+}
+void CellularArray::trace_cells(sc_core::sc_trace_file* file, const std::vector<std::size_t>& cells) const {
+  for (std::size_t c : cells) cells_[c]->trace(file);
 }
 
 } // namespace hopmesh::systemc

@@ -19,7 +19,7 @@ std::int32_t cut(std::uint32_t word, const spec::NumberFormat& f) {
 
 Device::Device(sc_core::sc_module_name name, const spec::ArraySpec& array, const spec::Topology& topology)
     : sc_module(name), socket("socket"), irq(spec::irq_signal.name),
-      cells(spec::cells_scope, array, topology) {
+      array_(make_array(spec::cells_scope, array, topology)), cells(*array_) {
   socket.register_b_transport(this, &Device::b_transport);
   socket.register_transport_dbg(this, &Device::transport_dbg);
   SC_METHOD(on_run_done);
@@ -203,29 +203,29 @@ std::uint32_t Device::get_link(std::uint64_t k) const {
 }
 
 std::uint32_t Device::get_bias(std::uint64_t k) const {
-  return static_cast<std::uint32_t>(cells.neuron(k).accumulator.bias());
+  return static_cast<std::uint32_t>(cells.bias(k));
 }
 
 std::uint32_t Device::get_output(std::uint64_t k) const {
-  return static_cast<std::uint32_t>(cells.neuron(k).output.state_raw());
+  return static_cast<std::uint32_t>(cells.state_raw(k));
 }
 
 std::uint32_t Device::get_weight(std::uint64_t k) const {
   const auto [neuron, tap] = weight_place(k);
-  return static_cast<std::uint32_t>(cells.neuron(neuron).accumulator.weight(tap));
+  return static_cast<std::uint32_t>(cells.weight(neuron, tap));
 }
 
 void Device::put_bias(std::uint64_t k, std::uint32_t word) {
-  cells.neuron(k).accumulator.set_bias(cut(word, cells.array().formats.bias));
+  cells.set_bias(k, cut(word, cells.array().formats.bias));
 }
 
 void Device::put_output(std::uint64_t k, std::uint32_t word) {
-  cells.neuron(k).load(static_cast<std::int32_t>(word));
+  cells.load(k, static_cast<std::int32_t>(word));
 }
 
 void Device::put_weight(std::uint64_t k, std::uint32_t word) {
   const auto [neuron, tap] = weight_place(k);
-  cells.neuron(neuron).accumulator.set_weight(tap, cut(word, cells.array().formats.weight));
+  cells.set_weight(neuron, tap, cut(word, cells.array().formats.weight));
 }
 
 std::pair<std::size_t, std::size_t> Device::weight_place(std::uint64_t k) const {

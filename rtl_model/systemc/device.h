@@ -3,7 +3,7 @@
 // (docs/hardware/registers.md, tests/example/).
 #pragma once
 
-#include "rtl_model/systemc/cellular_array.h"
+#include "rtl_model/systemc/neuron_array.h"
 #include "rtl_model/systemc/register_file.h"
 
 #include <tlm>
@@ -26,7 +26,12 @@ class Device : public sc_core::sc_module {
 
   tlm_utils::simple_target_socket<Device> socket;
   sc_core::sc_out<bool> irq;
-  CellularArray cells;
+
+ private:
+  const std::unique_ptr<NeuronArray> array_;
+
+ public:
+  NeuronArray& cells;
 
   /// Walks these cycles (counted over all runs) clock by clock instead of phase by phase.
   void walk(CycleWindow window) { cells.sequencer.walk(window); }

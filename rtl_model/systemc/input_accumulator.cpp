@@ -7,15 +7,20 @@
 
 namespace hopmesh::systemc {
 
-InputAccumulator::InputAccumulator(sc_core::sc_module_name name, const Datapath& path, std::size_t taps)
-    : sc_module(name), path_(path), weights_(taps, 0) {
-  sources_.reserve(taps / path.per_source);
+InputAccumulator::InputAccumulator(sc_core::sc_module_name name, const Datapath& path,
+                                   const std::vector<std::size_t>& taps)
+    : sc_module(name), path_(path), rows_(taps.size()) {
+  for (std::size_t k = 0; k < taps.size(); ++k) {
+    rows_[k].weights.assign(taps[k], 0);
+    rows_[k].sources.resize(taps[k] / path.per_source);
+  }
+  select(0);
 }
 
 void InputAccumulator::begin_sum() {
   const auto& q = path_.formats.accumulator;
-  sum_ = path_.exact ? bias_ * (std::int64_t{1} << -path_.bias_down)
-                     : into_range<Wide>(round_places<Wide>(bias_, path_.bias_down, q.rounding), q);
+  sum_ = path_.exact ? at_.bias * (std::int64_t{1} << -path_.bias_down)
+                     : into_range<Wide>(round_places<Wide>(at_.bias, path_.bias_down, q.rounding), q);
 }
 
 void InputAccumulator::sum_beat(std::size_t k) {
@@ -29,12 +34,12 @@ void InputAccumulator::sum_row() {
 }
 
 void InputAccumulator::begin_norm() {
-  norm_ = std::abs(std::int64_t{bias_}) << path_.bias_up;
+  norm_ = std::abs(std::int64_t{at_.bias}) << path_.bias_up;
 }
 
 void InputAccumulator::norm_beat(std::size_t k) {
   for (std::size_t t = k * path_.lanes; t < std::min(taps(), (k + 1) * path_.lanes); ++t)
-    norm_ += std::abs(std::int64_t{weights_[t]}) << path_.weight_up;
+    norm_ += std::abs(std::int64_t{at_.weights[t]}) << path_.weight_up;
 }
 
 void InputAccumulator::norm_row() {
@@ -45,15 +50,18 @@ void InputAccumulator::norm_row() {
 std::int64_t InputAccumulator::dot(std::size_t first, std::size_t last) const {
   std::int64_t products = 0;
   for (std::size_t t = first; t < last; ++t)
-    products += std::int64_t{weights_[t]} * sources_[t / path_.per_source][t % path_.per_source];
+    products += std::int64_t{at_.weights[t]} *
+                at_.sources[t / path_.per_source][bank_ + static_cast<std::ptrdiff_t>(t % path_.per_source)];
   return products;
 }
 
 std::int64_t InputAccumulator::dot_row() const {
   std::int64_t products = 0;
-  const std::int32_t* weight = weights_.data();
-  for (const std::int32_t* source : sources_)
+  const std::int32_t* weight = at_.weights;
+  for (const std::int32_t* const* wires = at_.sources; wires != at_.sources_end; ++wires) {
+    const std::int32_t* source = *wires + bank_;
     for (std::size_t q = 0; q < path_.per_source; ++q) products += std::int64_t{*weight++} * source[q];
+  }
   return products;
 }
 

@@ -6,12 +6,12 @@ namespace hopmesh::systemc {
 
 Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::size_t phase, std::size_t taps,
                LinkRegister& link, std::size_t p)
-    : sc_module(name), accumulator(spec::accumulator_scope, context.path, taps),
+    : sc_module(name), accumulator(spec::accumulator_scope, context.path, {taps}),
       output(spec::output_scope, context.path), sequencer_(context.sequencer), detector_(context.detector),
       extremes_(context.extremes), link_(link), p_(p),
       segment_(spec::Segment::first_phase + static_cast<int>(phase)),
-      phase_cycles_(context.sequencer.phase_cycles(phase)),
-      normalise_cycles_(spec::normalise_cycles(context.array)) {
+      phase_cycles_(context.sequencer.phase_cycles(phase)), drive_cycles_(spec::drive_cycles(context.array)),
+      change_cycles_(spec::change_cycles(context.array)) {
   SC_METHOD(on_prepare_done);
   sensitive << sequencer_.prepare_done();
   dont_initialize();
@@ -37,7 +37,7 @@ void Neuron::on_prepare_done() {
 void Neuron::on_phase_done() {
   accumulator.sum_row();
   normalise();
-  output.bias_by_r();
+  output.bias_by_r(output.drive_raw());
   publish();
 }
 
@@ -69,14 +69,15 @@ void Neuron::phase_beat(std::uint64_t beat) {
   const std::uint64_t beats = accumulator.beats();
   if (beat == 0) accumulator.begin_sum();
   if (beat < beats) accumulator.sum_beat(beat);
-  if (beat + 1 == beats + normalise_cycles_) normalise();
-  if (beat == beats + normalise_cycles_) output.bias_by_r();
+  if (beat + 1 == beats + drive_cycles_) normalise();
+  if (beat + 1 == beats + change_cycles_) output.bias_by_r(output.drive_raw());
   if (beat + 1 == phase_cycles_) publish();
 }
 
 void Neuron::trace(sc_core::sc_trace_file* file) const {
   accumulator.trace(file);
   output.trace(file);
+  output.trace_state(file, output.name());
 }
 
 } // namespace hopmesh::systemc

@@ -1,23 +1,12 @@
 // A two-part neuron: an input accumulator and an output stage, and the processes that wake them.
 #pragma once
 
-#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/systemc/input_accumulator.h"
 #include "rtl_model/systemc/link.h"
+#include "rtl_model/systemc/neuron_array.h"
 #include "rtl_model/systemc/output_stage.h"
-#include "rtl_model/systemc/sequencer.h"
 
 namespace hopmesh::systemc {
-
-/// What every neuron of an array shares.
-struct ArrayContext {
-  const spec::ArraySpec& array;
-  const spec::Topology& topology;
-  const Datapath path;
-  Sequencer& sequencer;
-  ConvergenceDetector& detector;
-  spec::Extremes& extremes;
-};
 
 class Neuron : public sc_core::sc_module {
  public:
@@ -48,7 +37,7 @@ class Neuron : public sc_core::sc_module {
   LinkRegister& link_;
   const std::size_t p_;
   const int segment_;
-  const std::uint64_t phase_cycles_, normalise_cycles_;
+  const std::uint64_t phase_cycles_, drive_cycles_, change_cycles_;
 };
 
 } // namespace hopmesh::systemc

@@ -6,37 +6,51 @@
 #include "rtl_model/systemc/rounding.h"
 
 #include <systemc>
+#include <vector>
 
 namespace hopmesh::systemc {
 
-/// Holds V, and the registers u and delta on the way to it. Knows nothing of neighbours.
+/// Holds V and N of its neurons, one or more, and the registers u and delta on the way to a new V. Knows
+/// nothing of neighbours. A neuron's place is its number among those of this stage.
 class OutputStage : public sc_core::sc_module {
  public:
   /// The datapath is the array's and must outlive its neurons.
-  OutputStage(sc_core::sc_module_name name, const Datapath& path);
+  OutputStage(sc_core::sc_module_name name, const Datapath& path, std::size_t neurons = 1);
 
-  void
-  set_norm(std::int64_t norm_raw); ///< once a run; for `reciprocal` this is where the reciprocal is divided
-  void normalise(std::int64_t sum_raw); ///< u <- limited Q[s / N], or sign(s)
-  void bias_by_r();                     ///< delta <- Q[R u]: the R bias pulls V to the bound that u points to
-  std::int64_t publish();               ///< V <- V + delta; returns |delta|
+  /// Once a run; for `reciprocal` this is where the reciprocal is divided.
+  void set_norm(std::int64_t norm_raw, std::size_t place = 0);
+  void normalise(std::int64_t sum_raw, std::size_t place = 0); ///< u <- limited Q[s / N], or sign(s)
+  /// delta <- Q[R u]: the R bias pulls V to the bound that u points to. Of a u that has left its register:
+  /// as it was there.
+  void bias_by_r(std::int64_t drive_raw, std::size_t place = 0);
+  std::int64_t publish(std::size_t place = 0); ///< V <- V + delta; returns |delta|
 
-  std::int64_t state_raw() const { return state_; }
+  std::int64_t state_raw(std::size_t place = 0) const { return memory_[place].state; }
   std::int64_t drive_raw() const { return drive_; }
   std::int64_t change_raw() const { return delta_; }
-  std::int64_t reciprocal_raw() const { return reciprocal_; } ///< of the last N that was not zero
-  std::int32_t link_raw() const;                              ///< Q[V -> link]
+  /// Of the last N that was not zero.
+  std::int64_t reciprocal_raw(std::size_t place = 0) const { return memory_[place].reciprocal; }
+  std::int32_t link_raw(std::size_t place = 0) const; ///< Q[V -> link]
   /// A value from the host: cut to the format's width, then held within [-1, 1].
-  void load(std::int32_t raw);
+  void load(std::int32_t raw, std::size_t place = 0);
 
-  void trace(sc_core::sc_trace_file* file) const override;
+  void trace(sc_core::sc_trace_file* file) const override; ///< u and delta
+  /// V, as a signal of `scope`.
+  void trace_state(sc_core::sc_trace_file* file, const std::string& scope, std::size_t place = 0) const;
 
  private:
-  Wide exact_ratio(std::int64_t sum_raw) const;
+  struct Memory {
+    std::int64_t norm = 0, reciprocal = 0, state = 0;
+    int reciprocal_places = 0;
+  };
+
+  Wide exact_ratio(std::int64_t sum_raw, std::int64_t norm) const;
 
   const Datapath& path_;
-  std::int64_t norm_ = 0, reciprocal_ = 0, drive_ = 0, delta_ = 0, state_ = 0;
-  int reciprocal_places_ = 0;
+  std::int64_t drive_ = 0, delta_ = 0;
+  Memory only_; ///< of a stage that has a single neuron: beside its registers
+  std::vector<Memory> many_;
+  Memory* const memory_; ///< one or the other, by place
 };
 
 } // namespace hopmesh::systemc

@@ -11,7 +11,7 @@ Sequencer::Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycle
                      ConvergenceDetector& detector)
     : sc_module(name), cycles_(cycles), period_(period), detector_(detector),
       phase_done_(cycles.phase.size()), clock_("clock", false), segment_("segment", Segment::idle),
-      beat_("beat", 0) {
+      running_("running", Segment::idle), beat_("beat", 0) {
   SC_METHOD(on_segment_end);
   sensitive << segment_end_;
   dont_initialize();
@@ -56,7 +56,7 @@ void Sequencer::leave_segment() {
 }
 
 void Sequencer::enter(int segment) {
-  at_ = segment;
+  running_ = at_ = segment;
   if (at_ == Segment::idle) return finish();
   if (at_ == Segment::first_phase) detector_.begin_sweep();
   const std::uint64_t length = spec::segment_cycles(cycles_, at_);

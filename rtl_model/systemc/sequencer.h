@@ -2,7 +2,7 @@
 // sweep, DONE.
 #pragma once
 
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 #include "rtl_model/systemc/convergence_detector.h"
 
 #include <systemc>
@@ -10,7 +10,8 @@
 namespace hopmesh::systemc {
 
 /// How neuron processes wake: at the end of their phase, accounting for its cycles; or at every clock, as in
-/// waves. Phases and clocks give the same bits at the same times.
+/// waves. Phases and clocks give the same bits at the same times; but neurons of a folded array, of which each
+/// has a time of its own inside a phase, all show V at its end when woken by phase.
 enum class Waking { by_phase, by_clock };
 
 /// Cycles of all runs so far, counted on: [first, last) is walked clock by clock.
@@ -33,7 +34,9 @@ class Sequencer : public sc_core::sc_module {
   const sc_core::sc_signal<bool>& clock() const { return clock_; }
   std::uint64_t phase_cycles(std::size_t k) const { return cycles_.phase[k]; }
   std::uint64_t prepare_cycles() const { return cycles_.prepare; }
-  int segment() const { return segment_.read(); } ///< a number of spec::Segment
+  int segment() const { return segment_.read(); } ///< a number of spec::Segment; idle while nobody walks
+  /// The segment that runs, walked or not. To who is woken by its end it is still that one.
+  int running() const { return running_.read(); }
   std::uint64_t beat() const { return beat_.read(); }
 
   /// Begins a run on the first clock edge not before now + delay. Only when idle.
@@ -69,9 +72,11 @@ class Sequencer : public sc_core::sc_module {
   sc_core::sc_event prepare_done_, run_done_, segment_end_, clock_edge_;
   sc_core::sc_signal<bool> clock_;
   sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> segment_; // by one process or the other, never both
+  sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> running_;
   sc_core::sc_signal<std::uint64_t, sc_core::SC_MANY_WRITERS> beat_;
   CycleWindow walked_;
-  int at_ = spec::Segment::idle; ///< the segment that runs now; segment_ shows it while clocks run
+  int at_ =
+      spec::Segment::idle; ///< the segment that runs now; segment_ shows it while clocks run, running_ always
   std::uint64_t beats_left_ = 0;
   bool busy_ = false, converged_ = false, clocked_ = false;
   std::uint64_t threshold_ = 0, max_sweeps_ = 1, sweeps_ = 0, run_cycles_ = 0, total_cycles_ = 0;

@@ -50,7 +50,9 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
   }
   if (!preset || spec::validate(array, topology.most_taps()))
     array = random_array(dice, topology.most_taps());
-  return {random_codes(dice, array, topology), every_sweep};
+  CampaignCase made{random_codes(dice, array, topology), every_sweep};
+  fold_at_random(dice, made.job.array);
+  return made;
 }
 
 namespace {

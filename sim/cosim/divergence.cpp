@@ -4,12 +4,29 @@ namespace hopmesh::cosim {
 
 Timing::Timing(const ArrayJob& job)
     : phases(spec::phases_of(job.topology, job.array.schedule)),
-      cycles(spec::cycle_model(job.array, job.topology, phases)) {}
+      cycles(spec::cycle_model(job.array, job.topology, phases)), array_(job.array) {
+  if (spec::is_folded(array_)) fold_ = spec::fold_of(array_, job.topology, phases);
+}
 
 std::uint64_t Timing::published(std::uint64_t sweep, std::size_t phase) const {
   std::uint64_t cycle = cycles.run(sweep - 1);
   for (std::size_t k = 0; k <= phase; ++k) cycle += cycles.phase[k];
   return cycle - 1; // a phase of cycles c ... e publishes in cycle e
+}
+
+std::vector<std::pair<std::uint32_t, std::uint64_t>> Timing::publications(std::uint64_t sweep,
+                                                                          std::size_t phase) const {
+  const std::uint64_t end = published(sweep, phase);
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> all;
+  if (!fold_)
+    for (std::uint32_t neuron : phases[phase]) all.push_back({neuron, end});
+  else
+    for (const spec::Round& round : fold_->rounds[phase])
+      for (std::size_t e = 0; e < round.count; ++e)
+        all.push_back({fold_->order[phase][round.first + e],
+                       end + 1 - cycles.phase[phase] +
+                           spec::through_stage(array_, round, e, spec::stage_cycles(array_))});
+  return all;
 }
 
 namespace {
@@ -43,10 +60,10 @@ Divergence locate(const ArrayJob& job, std::uint64_t sweep, const Codes& before,
   Divergence d;
   d.sweep = sweep;
   for (std::size_t k = 0; k < timing.phases.size(); ++k)
-    for (std::uint32_t neuron : timing.phases[k]) {
+    for (const auto& [neuron, cycle] : timing.publications(sweep, k)) {
       if (a[neuron] == b[neuron]) continue;
       d.phase = k;
-      d.cycle = timing.published(sweep, k);
+      d.cycle = cycle;
       d.neuron = neuron;
       d.raw[0] = a[neuron], d.raw[1] = b[neuron];
       d.before_raw = before[neuron], d.bias_raw = job.bias[neuron];

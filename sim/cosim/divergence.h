@@ -1,19 +1,29 @@
 // Where two answers to one job part: sweep, phase, cycle, neuron, and what that neuron had read.
 #pragma once
 
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 #include "sim/cosim/loaded_job.h"
+
+#include <optional>
 
 namespace hopmesh::cosim {
 
 /// When a job's neurons fire.
 struct Timing {
   explicit Timing(const ArrayJob& job);
-  /// Cycle of the run in which a phase of a sweep (from 1) publishes; the run's cycle 0 takes START.
+  /// Cycle of the run in which a phase of a sweep (from 1) publishes the last of its outputs; the run's cycle
+  /// 0 takes START.
   std::uint64_t published(std::uint64_t sweep, std::size_t phase) const;
+  /// Of all neurons of a phase, in the order in which they publish: the neuron, and its cycle of the run.
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> publications(std::uint64_t sweep,
+                                                                    std::size_t phase) const;
 
   spec::Phases phases;
   spec::CycleModel cycles;
+
+ private:
+  const spec::ArraySpec array_;
+  std::optional<spec::Fold> fold_; ///< of a folded array
 };
 
 /// An input of a neuron: where it comes from, its weight, and the source's V one update earlier.

@@ -171,6 +171,14 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
   return a;
 }
 
+void fold_at_random(Dice& dice, spec::ArraySpec& a) {
+  const auto most = static_cast<std::uint64_t>(spec::most_pipeline(a));
+  a.pipeline = dice.one_in(2) ? 0 : static_cast<int>(dice.below(most + 1));
+  if (dice.one_in(3)) return;
+  a.elements = static_cast<int>(dice.one_in(4) ? dice.between(1, 200) : dice.between(1, 9));
+  a.stages = dice.mode<spec::Stages>(spec::stages_names);
+}
+
 ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology) {
   ArrayJob job;
   job.array = array;
@@ -199,7 +207,9 @@ ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topo
 ArrayJob random_job(std::uint64_t seed, std::size_t most_cells) {
   Dice dice(seed);
   const spec::Topology topology = random_topology(dice, most_cells);
-  return random_codes(dice, random_array(dice, topology.most_taps()), topology);
+  ArrayJob job = random_codes(dice, random_array(dice, topology.most_taps()), topology);
+  fold_at_random(dice, job.array); // last, so that a seed makes the network that it made before arrays folded
+  return job;
 }
 
 std::string describe(const ArrayJob& job) {

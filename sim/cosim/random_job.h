@@ -48,6 +48,9 @@ spec::Topology random_topology(Dice& dice, std::size_t most_cells);
 /// Any array that spec::validate accepts for rows of `taps` inputs.
 spec::ArraySpec random_array(Dice& dice, std::size_t taps);
 
+/// Folds some of all arrays, and gives some a pipeline.
+void fold_at_random(Dice& dice, spec::ArraySpec& array);
+
 /// Everything for one run, on this array and mesh.
 ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology);
 ArrayJob random_job(std::uint64_t seed, std::size_t most_cells = 60);

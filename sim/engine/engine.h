@@ -2,6 +2,7 @@
 // docs/hardware/engine.md walks through it.
 #pragma once
 
+#include "rtl_model/spec/cycles.h"
 #include "sim/engine/sweeper.h"
 
 #include <string>

@@ -5,6 +5,7 @@
 #include "sim/files/output_file.h"
 #include "sim/input/input_error.h"
 #include "sim/levels/interrupt.h"
+#include "sim/levels/prepared.h"
 #include "sim/networks/problems/problem.h"
 
 #include <algorithm>
@@ -80,7 +81,9 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
     write_sweeps(folder / "solve.csv", network, *level, solution, levels::stop_requested);
     write_solution(folder, label, network, solution);
   }
-  return {text_of(label, network, solution), solution.rest.converged};
+  TaskEnd end{text_of(label, network, solution), solution.rest.converged, {}};
+  levels::tell_of_fold(array, network.topology(), end.notes);
+  return end;
 }
 
 } // namespace hopmesh::networks

@@ -29,6 +29,7 @@ void apply_rule(const std::string& rule, bool is_set, const SolveTask& task, spe
 struct TaskEnd {
   std::string text; ///< for people
   bool at_rest;
+  std::vector<std::string> notes; ///< about the array and this network: a line each
 };
 /// Relaxes it at a level; into `folder`, unless that is empty, go V.mtx, solve.csv and summary.json. Throws
 /// input::InputError where the array (of `file`) cannot have the network, levels::Stopped where the user

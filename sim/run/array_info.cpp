@@ -1,7 +1,7 @@
 #include "sim/run/array_info.h"
 
 #include "rtl_model/spec/array_keys.h"
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 #include "sim/input/count_text.h"
 
 #include <algorithm>
@@ -19,6 +19,41 @@ std::string normaliser_text(const spec::ArraySpec& array) {
   return spec::has_reciprocal(array) ? fmt::format("{}, {} bits", name, array.reciprocal_bits) : name;
 }
 
+/// Input accumulators that are built.
+std::uint64_t accumulators(const spec::ArraySpec& array, const spec::Topology& t) {
+  return spec::is_folded(array) ? static_cast<std::uint64_t>(array.elements) : t.neurons();
+}
+
+/// Of the memory of links in an element: what is read, and what is written where all fire at once.
+std::uint64_t link_banks(const spec::ArraySpec& array) {
+  return array.schedule == spec::Schedule::synchronous ? 2 : 1;
+}
+
+std::string elements_text(const spec::ArraySpec& array) {
+  if (!spec::is_folded(array)) return "one a neuron";
+  return grouped(static_cast<std::uint64_t>(array.elements)) + ", shared by the neurons of a phase";
+}
+
+/// Of the sums; output stages have theirs.
+std::string multipliers_text(const spec::ArraySpec& array, const spec::Topology& t) {
+  return fmt::format("{} {}, {} in all", array.lanes, spec::is_folded(array) ? "an element" : "a neuron",
+                     grouped(accumulators(array, t) * static_cast<std::uint64_t>(array.lanes)));
+}
+
+std::string stage_text(const spec::ArraySpec& array) {
+  std::string text(name_of(array.output));
+  if (spec::is_folded(array)) text += spec::shares_stage(array) ? ", one for all" : ", one an element";
+  if (array.pipeline > 0)
+    text += fmt::format(", {} of pipeline",
+                        input::with_noun(static_cast<std::uint64_t>(array.pipeline), "register"));
+  return text;
+}
+
+pictures::Figure& find_row(std::vector<pictures::Figure>& rows, const std::string& name) {
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const pictures::Figure& row) { return row.name == name; });
+}
+
 FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
   const spec::Topology& t = mesh.topology();
   std::vector<pictures::Figure> rows{
@@ -28,15 +63,16 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
       {"neurons", fmt::format("{} ({} a cell)", grouped(t.neurons()), t.neurons_per_cell)},
       {"links between cells", grouped(t.links())},
       {"inputs of a neuron", fmt::format("at most {}", t.most_taps())},
-      {"multipliers", fmt::format("{} a neuron, {} in all", array.lanes, grouped(t.neurons() * array.lanes))},
-      {"output stage", std::string(name_of(array.output))},
+      {"elements", elements_text(array)},
+      {"multipliers", multipliers_text(array, t)},
+      {"output stage", stage_text(array)},
       {"normaliser", normaliser_text(array)},
       {"schedule", fmt::format("{}, {} phases a sweep", name_of(array.schedule), grouped(phases.size()))},
       {"host bus", fmt::format("{} bits", array.bus_bits)},
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };
   if (array.schedule == spec::Schedule::coloured)
-    rows[9].value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
+    find_row(rows, "schedule").value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
   return {"Array", rows};
 }
 
@@ -50,16 +86,30 @@ FigureTable formats(const levels::BuiltMesh& mesh, spec::ArraySpec array) {
   return {"Formats", rows};
 }
 
+std::string phase_text(const spec::ArraySpec& array, const spec::Topology& t, const spec::Phases& phases,
+                       const spec::CycleModel& m) {
+  const auto longest = std::max_element(m.phase.begin(), m.phase.end());
+  if (spec::is_folded(array)) {
+    const auto phase = static_cast<std::size_t>(longest - m.phase.begin());
+    const std::size_t rounds = spec::fold_of(array, t, phases).rounds[phase].size();
+    return fmt::format("{}, in {} of at most {} to accumulate, output stage of {}", *longest,
+                       input::with_noun(rounds, "round"), spec::accumulate_cycles(array, t.most_taps()),
+                       spec::stage_cycles(array));
+  }
+  std::string text = fmt::format("{} = {} accumulate + {} normalise + {} output", *longest,
+                                 spec::accumulate_cycles(array, t.most_taps()), spec::normalise_cycles(array),
+                                 spec::output_cycles(array));
+  if (array.pipeline > 0) text += fmt::format(" + {} pipeline", array.pipeline);
+  return text;
+}
+
 FigureTable cycles(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
   const spec::Topology& t = mesh.topology();
   const spec::CycleModel m = spec::cycle_model(array, t, phases);
-  const auto longest = *std::max_element(m.phase.begin(), m.phase.end());
   const std::uint64_t load =
       spec::bus_cycles(array, t.weight_words()) + 2 * spec::bus_cycles(array, t.neurons());
   return {"Cycles",
-          {{"longest phase", fmt::format("{} = {} accumulate + {} normalise + {} output", longest,
-                                         spec::accumulate_cycles(array, t.most_taps()),
-                                         spec::normalise_cycles(array), spec::output_cycles(array))},
+          {{"longest phase", phase_text(array, t, phases, m)},
            {"sweep", grouped(m.sweep)},
            {"prepare, once a run", grouped(m.prepare)},
            {"run of n sweeps", fmt::format("{} + {} n", grouped(1 + m.prepare), grouped(m.sweep))},
@@ -150,25 +200,32 @@ FigureTable left_out(const scene::Scene& scene, const levels::BuiltMesh& mesh) {
 
 } // namespace
 
+// A folded array reads links by a memory in each element, and by another bank where all fire at once; sums
+// wait in front of a shared stage in registers of their own.
 MemoryBits memory_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
   const spec::Topology& t = mesh.topology();
   const spec::Formats& f = array.formats;
   const auto width = [](const spec::NumberFormat& format) {
     return static_cast<std::uint64_t>(format.width);
   };
-  const std::uint64_t neurons = t.neurons();
-  return {t.weight_words() * width(f.weight), neurons * width(f.bias),
-          neurons * (width(f.state) + width(f.link)),
-          neurons * width(spec::accumulator_format(array, t.most_taps()))};
+  const std::uint64_t neurons = t.neurons(), sum = width(spec::accumulator_format(array, t.most_taps()));
+  std::uint64_t links = width(f.link);
+  if (spec::is_folded(array)) links *= accumulators(array, t) * link_banks(array);
+  return {t.weight_words() * width(f.weight), neurons * width(f.bias), neurons * (width(f.state) + links),
+          accumulators(array, t) * sum * (spec::shares_stage(array) ? 2 : 1)};
 }
 
 std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
   const spec::Topology& t = mesh.topology();
   const spec::Formats& f = array.formats;
-  int neuron = array.lanes * f.weight.width * f.link.width + f.state.width * f.drive.width;
+  const auto product = [](int a, int b) {
+    return static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b);
+  };
+  const std::uint64_t sums = accumulators(array, t) * product(array.lanes * f.weight.width, f.link.width);
+  std::uint64_t stage = product(f.state.width, f.drive.width);
   if (array.normaliser == spec::Normaliser::reciprocal)
-    neuron += spec::accumulator_format(array, t.most_taps()).width * array.reciprocal_bits;
-  return t.neurons() * static_cast<std::uint64_t>(neuron);
+    stage += product(spec::accumulator_format(array, t.most_taps()).width, array.reciprocal_bits);
+  return sums + stage * (spec::shares_stage(array) ? 1 : accumulators(array, t));
 }
 
 std::vector<FigureTable> array_info(const scene::Scene& scene, const levels::BuiltMesh& mesh,

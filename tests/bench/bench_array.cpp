@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 #include <sysc/tracing/sc_tracing_ids.h>
 #include <unistd.h>
 
@@ -63,7 +64,9 @@ void by_clock_with_wave(benchmark::State& state, Arrays& a) {
   file->set_time_unit(1, sc_core::SC_NS);
   const auto& cells = a.production.device.cells;
   cells.sequencer.trace(file);
-  for (std::size_t c = 0; c < a.mesh.cells(); ++c) cells.cell(c).trace(file);
+  std::vector<std::size_t> all(a.mesh.cells());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  cells.trace_cells(file, all);
   run_production(state, a, systemc::Waking::by_clock);
   sc_core::sc_close_vcd_trace_file(file);
   std::filesystem::remove(name.string() + ".vcd");

@@ -8,7 +8,7 @@
 #error "sc_fixed needs SC_INCLUDE_FX defined for the whole file (tests/bench/CMakeLists.txt does)"
 #endif
 
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 
 #include <memory>
 #include <systemc>

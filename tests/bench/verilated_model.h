@@ -2,7 +2,7 @@
 // templates; who instantiates one includes its header and that of its ___024root before.
 #pragma once
 
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 #include "tests/bench/verilated_array.h"
 
 #include <stdexcept>

@@ -121,6 +121,21 @@ TEST_F(Explain, OrderFollowsTheSchedule) {
   for (const auto& input : d->inputs) EXPECT_EQ(input.output_raw, 100);
 }
 
+TEST_F(Explain, NeuronsOfAFoldPublishInCyclesOfTheirOwn) {
+  // All in one phase, equal rows of 12 taps: rounds 0 to 4, 5 to 9, 10 and 11. S is 14 + 2 + 2 = 18.
+  array.schedule = spec::Schedule::synchronous;
+  array.elements = 5;
+  const std::uint64_t each = 1 + (1 + 3 * 12); // START, prepare: N goes into its memory as it is summed
+  EXPECT_EQ(difference({1, 0})->cycle, each + 12 + 18);
+  EXPECT_EQ(difference({1, 4})->cycle, each + 12 + 18);
+  EXPECT_EQ(difference({1, 11})->cycle, each + 12 + 2 * 18 + 18); // stages are free every 18 cycles
+  array.stages = spec::Stages::one;
+  const std::uint64_t one = 1 + (1 + 3 * 12 + 1 + 1);
+  EXPECT_EQ(difference({1, 0})->cycle, one + 12 + 18);
+  EXPECT_EQ(difference({1, 4})->cycle, one + 12 + 4 + 18);
+  EXPECT_EQ(difference({1, 11})->cycle, one + 3 * 12 + 1 + 18);
+}
+
 TEST_F(Explain, AFaultThatHealsIsFoundWhereItWas) {
   const auto d = difference({2, 7, 1 << 3}, 300); // long at rest by then
   ASSERT_TRUE(d);

@@ -86,6 +86,9 @@ TEST(Shrink, LeavesWhatTheFaultNeedsAndNothingElse) {
     EXPECT_EQ(small.threshold, 0u);
     EXPECT_EQ(small.array.lanes, 1);
     EXPECT_EQ(small.array.bus_bits, 32);
+    EXPECT_EQ(small.array.elements, 0);
+    EXPECT_EQ(small.array.stages, spec::Stages::each);
+    EXPECT_EQ(small.array.pipeline, 0);
   }
   EXPECT_GT(shrunk, 10);
 }

@@ -1,111 +1,11 @@
 // The clock-stepped engine beside the SystemC array woken by clock: every register of every neuron after
 // every clock; and at the end of a run the engine's.
-#include "sim/engine/clocked/clocked.h"
-#include "tests/systemc/register_table.h"
-
-#include <gtest/gtest.h>
+#include "tests/engine/clocked_pair.h"
 
 namespace hopmesh::tests {
 namespace {
 
 using engine::ClockedEngine;
-
-const std::uint32_t* as_words(const std::vector<std::int32_t>& codes) {
-  return reinterpret_cast<const std::uint32_t*>(codes.data());
-}
-
-template <typename Array> void load_codes(Array& array, const ArrayJob& job) {
-  array.write_weights(0, as_words(job.weight), job.weight.size());
-  array.write_biases(0, as_words(job.bias), job.bias.size());
-  array.write_outputs(0, as_words(job.start), job.start.size());
-}
-
-void expect_sequencer(const ClockedEngine& e, const systemc::Sequencer& s) {
-  ASSERT_EQ(e.segment(), s.segment());
-  ASSERT_EQ(e.beat(), s.beat());
-  ASSERT_EQ(e.busy(), s.busy());
-  ASSERT_EQ(e.result().sweeps, s.sweeps());
-  ASSERT_EQ(e.result().converged, s.converged());
-}
-
-void expect_registers(const ClockedEngine& e, const systemc::CellularArray& cells) {
-  for (std::size_t k = 0; k < e.topology().neurons(); ++k) {
-    SCOPED_TRACE("neuron " + std::to_string(k));
-    const systemc::Neuron& n = cells.neuron(k);
-    ASSERT_EQ(e.norm(k), n.accumulator.norm_raw());
-    ASSERT_EQ(e.sum(k), n.accumulator.sum_raw());
-    ASSERT_EQ(e.drive(k), n.output.drive_raw());
-    ASSERT_EQ(e.change(k), n.output.change_raw());
-    ASSERT_EQ(e.state(k), n.output.state_raw());
-    const std::size_t per_cell = static_cast<std::size_t>(e.topology().neurons_per_cell);
-    ASSERT_EQ(e.link(k), cells.cell(k / per_cell).out->wires()[k % per_cell]);
-    ASSERT_EQ(e.reciprocal(k), n.output.reciprocal_raw());
-  }
-}
-
-/// A run, clock by clock beside each other; returns how many clocks it took.
-std::uint64_t expect_run_clock_by_clock(ClockedEngine& e, Dut& dut, const ArrayJob& job) {
-  dut.write(HM_REG_IRQ_STATUS, ~0u);
-  dut.start(job.threshold, job.max_sweeps);
-  e.start(job.threshold, job.max_sweeps);
-  std::uint64_t clock = 0;
-  for (; !testing::Test::HasFatalFailure(); ++clock) {
-    SCOPED_TRACE("after clock " + std::to_string(clock));
-    dut.run_to_cycle(clock);
-    expect_sequencer(e, dut.device.cells.sequencer);
-    if (!testing::Test::HasFatalFailure()) expect_registers(e, dut.device.cells);
-    if (!e.busy()) break;
-    e.step();
-  }
-  sc_core::sc_start(dut.device.cells.period() * 0.75); // to an edge, where the next run may begin
-  return clock;
-}
-
-/// A run by the engine, and by the clocked one in strides.
-void expect_end(const ClockedEngine& e, const ArrayJob& job, const std::vector<std::int32_t>& start,
-                Dice& dice) {
-  engine::Engine fast(job.array, job.topology, {1, "auto", 1});
-  ClockedEngine strides(job.array, job.topology);
-  load_codes(fast, job);
-  load_codes(strides, job);
-  fast.write_outputs(0, as_words(start), start.size());
-  strides.write_outputs(0, as_words(start), start.size());
-  const spec::Relaxation r = fast.run(job.threshold, job.max_sweeps);
-  strides.start(job.threshold, job.max_sweeps);
-  while (strides.busy()) strides.step(1 + dice.below(50));
-  std::vector<std::int32_t> outputs(job.topology.neurons());
-  fast.read_outputs(0, reinterpret_cast<std::uint32_t*>(outputs.data()), outputs.size());
-  for (const spec::Relaxation& c : {e.result(), strides.result()}) {
-    EXPECT_EQ(c.sweeps, r.sweeps);
-    EXPECT_EQ(c.converged, r.converged);
-    EXPECT_EQ(c.largest_change, r.largest_change);
-    EXPECT_EQ(c.cycles, r.cycles);
-  }
-  for (std::size_t k = 0; k < outputs.size(); ++k) {
-    ASSERT_EQ(e.state(k), outputs[k]) << k;
-    ASSERT_EQ(strides.state(k), outputs[k]) << k;
-    ASSERT_EQ(strides.sum(k), e.sum(k)) << k;
-    ASSERT_EQ(strides.drive(k), e.drive(k)) << k;
-    ASSERT_EQ(strides.change(k), e.change(k)) << k;
-    ASSERT_EQ(strides.norm(k), e.norm(k)) << k;
-  }
-}
-
-void expect_alike(Dut& dut, const ArrayJob& job, Dice& dice, int runs) {
-  SCOPED_TRACE(describe(job));
-  dut.device.wake(systemc::Waking::by_clock);
-  ClockedEngine e(job.array, job.topology);
-  load(dut, job);
-  load_codes(e, job);
-  for (int run = 0; run < runs && !testing::Test::HasFailure();
-       ++run) { // what a run leaves behind counts too
-    std::vector<std::int32_t> start;
-    for (std::size_t k = 0; k < job.topology.neurons(); ++k) start.push_back(e.state(k));
-    const std::uint64_t clocks = expect_run_clock_by_clock(e, dut, job);
-    EXPECT_EQ(clocks, e.result().cycles);
-    if (!testing::Test::HasFailure()) expect_end(e, job, start, dice);
-  }
-}
 
 class Clocked : public testing::TestWithParam<int> {};
 
@@ -136,6 +36,9 @@ struct Kind {
   bool exact;
   spec::Output output = spec::Output::modified;
   int per_cell = 3;
+  int elements = 0;
+  spec::Stages stages = spec::Stages::each;
+  int pipeline = 0;
 };
 
 class ClockedKinds : public testing::TestWithParam<Kind> {};
@@ -144,7 +47,8 @@ std::string name_of_kind(const testing::TestParamInfo<Kind>& kind) {
   return std::string(spec::name_of(kind.param.schedule)) + "_" +
          std::string(spec::name_of(kind.param.normaliser)) + "_" + std::to_string(kind.param.lanes) +
          (kind.param.exact ? "_exact_" : "_rounding_") + std::string(spec::name_of(kind.param.output)) + "_" +
-         std::to_string(kind.param.per_cell);
+         std::to_string(kind.param.per_cell) + "_on_" + std::to_string(kind.param.elements) + "_" +
+         std::string(spec::name_of(kind.param.stages)) + "_" + std::to_string(kind.param.pipeline);
 }
 
 /// A grid so large that banks have several blocks of lanes and rows of three lengths.
@@ -155,6 +59,9 @@ TEST_P(ClockedKinds, EqualTheSystemcArrayOnAGrid) {
   array.normaliser = GetParam().normaliser;
   array.output = GetParam().output;
   array.lanes = GetParam().lanes;
+  array.elements = GetParam().elements;
+  array.stages = GetParam().stages;
+  array.pipeline = GetParam().pipeline;
   array.exact_accumulator = GetParam().exact;
   array.formats.accumulator = {24, 9, spec::Rounding::rnd_conv, spec::Overflow::sat};
   const bool one_by_one = array.schedule == spec::Schedule::sequential;
@@ -183,6 +90,26 @@ std::vector<Kind> kinds() {
   return all;
 }
 
+/// Folded, and with as many registers as a normaliser can have.
+std::vector<Kind> folded_kinds() {
+  std::vector<Kind> all;
+  for (int schedule = 0; schedule < 3; ++schedule)
+    for (int normaliser = 0; normaliser < 3; ++normaliser)
+      for (int elements : {0, 1, 3, 16, 300})
+        for (int registers = normaliser == 0 ? 3 : 4; registers >= 0; registers -= elements ? 2 : 1)
+          for (auto stages : {spec::Stages::each, spec::Stages::one})
+            if (elements > 0 || stages == spec::Stages::each)
+              all.push_back({static_cast<spec::Schedule>(schedule), static_cast<spec::Normaliser>(normaliser),
+                             registers == 2 ? 4 : 1, registers != 0, spec::Output::modified, 3, elements,
+                             stages, registers});
+  for (int elements : {1, 5, 300})
+    for (auto stages : {spec::Stages::each, spec::Stages::one})
+      all.push_back({spec::Schedule::coloured, spec::Normaliser::divider, 2, true, spec::Output::binary, 2,
+                     elements, stages});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Folded, ClockedKinds, testing::ValuesIn(folded_kinds()), name_of_kind);
 INSTANTIATE_TEST_SUITE_P(All, ClockedKinds, testing::ValuesIn(kinds()), name_of_kind);
 
 TEST(ClockedEngine, StaysIdleWithoutStartAndAfterTheEnd) {

@@ -21,6 +21,9 @@ TEST(ArrayFile, readsEveryKey) {
   EXPECT_EQ(a.name, "mine");
   EXPECT_EQ(a.schedule, spec::Schedule::sequential);
   EXPECT_EQ(a.lanes, 9);
+  EXPECT_EQ(a.elements, 12);
+  EXPECT_EQ(a.stages, spec::Stages::one);
+  EXPECT_EQ(a.pipeline, 0);
   EXPECT_EQ(a.output, spec::Output::binary);
   EXPECT_EQ(a.normaliser, spec::Normaliser::reciprocal);
   EXPECT_EQ(a.reciprocal_bits, 20);
@@ -56,6 +59,11 @@ TEST(ArrayFile, startsFromTheDefaultWithoutPreset) {
   EXPECT_EQ(a.bus_bits, 64);
   EXPECT_EQ(a.normaliser, spec::default_array().normaliser);
   EXPECT_EQ(a.formats.drive, spec::default_array().formats.drive);
+}
+
+TEST(ArrayFile, aPipelineIsReadWhereTheNormaliserCanHaveIt) {
+  EXPECT_EQ(array_of("[array]\npipeline = 4\n").pipeline, 4);
+  EXPECT_EQ(array_of("preset = \"prescaled\"\n[array]\npipeline = 3\n").pipeline, 3);
 }
 
 TEST(ArrayFile, accumulatorIsExactOrAFormat) {

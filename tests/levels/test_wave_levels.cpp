@@ -46,6 +46,15 @@ INSTANTIATE_TEST_SUITE_P(Cycles, WaveOfLevels,
 INSTANTIATE_TEST_SUITE_P(Clocks, WaveOfLevels,
                          testing::Values("--set array.clock_mhz=3 --wave-window 100:400c",
                                          "--set array.clock_mhz=333", "--set array.clock_mhz=0.001"));
+INSTANTIATE_TEST_SUITE_P(
+    Folds, WaveOfLevels,
+    testing::Values("--array folded --wave-window 1:2",
+                    "--array folded --wave-window 100:900c --wave-cells 3",
+                    "--set array.elements=2 --set array.schedule=synchronous --set array.pipeline=3",
+                    "--array descent --set array.elements=4 --set array.stages=one --set array.pipeline=4 "
+                    "--wave-window 200:700c",
+                    "--set array.output=binary --set array.elements=3 --set array.lanes=9",
+                    "--array prescaled --set array.pipeline=3 --wave-window 1:2"));
 INSTANTIATE_TEST_SUITE_P(Arrays, WaveOfLevels,
                          testing::Values("--array descent --wave-window 300:900c", "--array prescaled",
                                          "--array byte --wave-window 1:2",

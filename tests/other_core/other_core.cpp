@@ -76,7 +76,8 @@ Wide low_bits(long word, int width) {
 
 struct Core {
   std::string schedule, output, normaliser;
-  int reciprocal_bits = 0, lanes = 1, per_cell = 3;
+  std::string stages;
+  int reciprocal_bits = 0, lanes = 1, per_cell = 3, elements = 0, pipeline = 0;
   bool exact = false;
   Format weight, bias, sum, drive, state, link;
   long cells = 0, threshold = 0, max_sweeps = 1;
@@ -153,19 +154,49 @@ struct Core {
   // ---- cycles ----
 
   long beats(std::size_t taps) const { return (static_cast<long>(taps) + lanes - 1) / lanes; }
+  long stage() const {                // S
+    if (output == "binary") return 2; // the sign; V
+    const long normalise = normaliser == "prescaled"    ? 1
+                           : normaliser == "reciprocal" ? 2
+                                                        : drive.fraction + 2;
+    return normalise + 2 + pipeline;
+  }
   long prepare() const {
     if (output == "binary" || normaliser == "prescaled") return 0;
-    return beats(longest()) + (normaliser == "reciprocal" ? reciprocal_bits + 1 : 0);
+    const long divide = normaliser == "reciprocal" ? reciprocal_bits + 1 : 0;
+    if (elements == 0) return beats(longest()) + divide;
+    std::vector<std::vector<long>> rounds;
+    for (const auto& phase : phases)
+      for (const auto& round : folded(phase)) rounds.push_back(round);
+    return length_of(rounds, divide == 0 && stages == "one" ? 1 : divide);
   }
   long length(const std::vector<long>& phase) const {
+    if (elements > 0) return length_of(folded(phase), stage());
     std::size_t taps = 0;
     for (long i : phase) taps = std::max(taps, row[static_cast<std::size_t>(i)].size());
-    if (output == "binary") return beats(taps) + 2; // the sign; V
-    return beats(taps) +
-           (normaliser == "prescaled"    ? 1
-            : normaliser == "reciprocal" ? 2
-                                         : drive.fraction + 2) +
-           2;
+    return beats(taps) + stage();
+  }
+
+  /// Rounds of a phase that shares elements.
+  std::vector<std::vector<long>> folded(std::vector<long> phase) const {
+    const auto length_of_row = [this](long i) { return row[static_cast<std::size_t>(i)].size(); };
+    std::sort(phase.begin(), phase.end(), [&](long a, long b) {
+      return length_of_row(a) != length_of_row(b) ? length_of_row(a) > length_of_row(b) : a < b;
+    });
+    std::vector<std::vector<long>> rounds;
+    for (std::size_t k = 0; k < phase.size(); ++k) {
+      if (k % static_cast<std::size_t>(elements) == 0) rounds.emplace_back();
+      rounds.back().push_back(phase[k]);
+    }
+    return rounds;
+  }
+  long length_of(const std::vector<std::vector<long>>& rounds, long depth) const {
+    long cycles = 1, wait = 0;
+    for (const auto& round : rounds) {
+      cycles += std::max(beats(row[static_cast<std::size_t>(round[0])].size()), wait);
+      wait = stages == "one" ? static_cast<long>(round.size()) : depth;
+    }
+    return cycles + (stages == "one" ? wait - 1 : 0) + depth;
   }
 };
 
@@ -223,6 +254,9 @@ void take_line(Core& core, const std::string& line) {
   if (key == "normaliser") words >> core.normaliser;
   if (key == "reciprocal_bits") words >> core.reciprocal_bits;
   if (key == "lanes") words >> core.lanes;
+  if (key == "elements") words >> core.elements;
+  if (key == "stages") words >> core.stages;
+  if (key == "pipeline") words >> core.pipeline;
   if (key == "cells") words >> core.cells;
   if (key == "neurons_per_cell") words >> core.per_cell;
   if (key == "threshold") words >> core.threshold;

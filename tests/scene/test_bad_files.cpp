@@ -123,8 +123,8 @@ TEST(BadNames, getTheNearestShippedOne) {
   EXPECT_THAT(complaint([] { read_inputs("flag400", "", {}); }),
               ::testing::EndsWith("(did you mean flag-400?)"));
   EXPECT_EQ(complaint([] { read_inputs("flag-400", "descend", {}); }),
-            "array: found \"descend\", expected an array file, or \"guarded\", \"descent\", \"prescaled\" or "
-            "\"byte\" "
+            "array: found \"descend\", expected an array file, or \"guarded\", \"descent\", \"prescaled\", "
+            "\"byte\" or \"folded\" "
             "(did you mean descent?)");
 }
 

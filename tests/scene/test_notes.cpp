@@ -66,8 +66,11 @@ TEST(Notes, tellKeysOfAnArray) {
   EXPECT_THAT(notes("", {"array.output=binary", "array.normaliser=divider"}),
               ElementsAre("--set: array.normaliser: no effect here; it counts only with "
                           "array.output = \"modified\""));
+  EXPECT_THAT(notes("", {"array.stages=one"}),
+              ElementsAre("--set: array.stages: no effect here; it counts only with array.elements above 0"));
+  EXPECT_THAT(notes("", {"array.stages=one", "array.elements=7"}), IsEmpty());
   const Folder temp;
-  for (const char* preset : {"guarded", "descent", "prescaled", "byte"}) {
+  for (const char* preset : {"guarded", "descent", "prescaled", "byte", "folded"}) {
     const std::string text = input::array_text(read_inputs("flag-400", preset, {}).array);
     EXPECT_THAT(notes(temp.write("a.toml", text), {}), IsEmpty()) << preset;
   }

@@ -100,6 +100,11 @@ TEST_F(SizingTest, MultiplierBitsByHand) {
   spec::ArraySpec array = spec::descent_array();
   array.lanes = 3;
   EXPECT_EQ(multiplier_bits(two, array), 3u * (3 * 16 * 16 + 16 * 16));
+  array = spec::default_array(); // folded: as many as there are elements, whatever the neurons
+  array.elements = 2;
+  EXPECT_EQ(multiplier_bits(two, array), 2u * (16 * 16 + 24 * 18 + 40 * 18));
+  array.stages = spec::Stages::one;
+  EXPECT_EQ(multiplier_bits(two, array), 2u * 16 * 16 + 24 * 18 + 40 * 18);
 }
 
 TEST_F(SizingTest, AnAccumulatorOfItsOwnIsRefused) {

@@ -14,10 +14,10 @@ inline spec::NumberFormat ratio;
 inline spec::ArrayKeys with_more(spec::ArraySpec& array) {
   spec::ArrayKeys keys = spec::array_keys(array);
   keys.push_back(
-      spec::ArrayKey("array.depth", &depth, "of the pipeline").allows({"1 to 9", 1, 9}).in_vectors(13));
+      spec::ArrayKey("array.depth", &depth, "of the pipeline").allows({"1 to 9", 1, 9}).in_vectors(16));
   keys.push_back(
-      spec::ArrayKey("array.colour", spec::choice(colour, colour_names), "of the box").in_vectors(14));
-  keys.push_back(spec::ArrayKey("formats.ratio", &ratio, "a ratio").in_vectors(15));
+      spec::ArrayKey("array.colour", spec::choice(colour, colour_names), "of the box").in_vectors(17));
+  keys.push_back(spec::ArrayKey("formats.ratio", &ratio, "a ratio").in_vectors(18));
   return keys;
 }
 

@@ -1,6 +1,7 @@
 // Sweep by sweep, phase by phase, neuron by neuron: nothing is shared, kept or skipped for speed.
 #include "tests/support/slow_array.h"
 
+#include "tests/support/slow_fold.h"
 #include "tests/support/slow_neuron.h"
 
 namespace hopmesh::tests {
@@ -78,18 +79,20 @@ std::uint64_t groups(std::size_t taps, int lanes) {
 std::uint64_t slow_cycles(const ArrayJob& job, std::uint32_t sweeps) {
   const spec::ArraySpec& a = job.array;
   const spec::Topology& t = job.topology;
+  if (a.elements > 0) {
+    std::uint64_t folded = 1;
+    for (std::uint64_t phase : slow_folded_sweep(job).phases) folded += phase;
+    return 1 + slow_folded_prepare(job) + sweeps * folded;
+  }
   const bool binary = a.output == spec::Output::binary;
   const bool reciprocal = !binary && a.normaliser == spec::Normaliser::reciprocal;
   const bool prescaled = !binary && a.normaliser == spec::Normaliser::prescaled;
-  const std::uint64_t normalise = binary || prescaled ? 1
-                                  : reciprocal        ? 2
-                                                      : a.formats.drive.fraction_bits() + 2;
   std::uint64_t sweep = 1, longest = 0;
   for (const auto& phase : spec::phases_of(t, a.schedule)) {
     std::uint64_t row = 0;
     for (std::uint32_t neuron : phase)
       row = std::max(row, groups(t.taps(neuron / t.neurons_per_cell), a.lanes));
-    sweep += row + normalise + (binary ? 1 : 2);
+    sweep += row + slow_stage(a);
     longest = std::max(longest, row);
   }
   const std::uint64_t prepare = binary || prescaled ? 0 : longest + (reciprocal ? a.reciprocal_bits + 1 : 0);

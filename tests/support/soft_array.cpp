@@ -1,6 +1,7 @@
 #include "tests/support/soft_array.h"
 
 #include "rtl_model/spec/capabilities.h"
+#include "rtl_model/spec/cycles.h"
 
 #include <algorithm>
 #include <cstdlib>

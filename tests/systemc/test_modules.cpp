@@ -24,7 +24,7 @@ void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, s
   const std::size_t taps = sources * per_source;
   const spec::NumberFormat format = spec::accumulator_format(array, taps);
   const systemc::Datapath path(array, taps, per_source);
-  InputAccumulator whole("whole", path, taps), beats("beats", path, taps);
+  InputAccumulator whole("whole", path, {taps}), beats("beats", path, {taps});
   const std::int64_t one = array.formats.link.one_raw();
   std::vector<std::vector<std::int32_t>> wires(sources, std::vector<std::int32_t>(per_source));
   std::vector<std::int64_t> weights, links;
@@ -102,7 +102,7 @@ spec::ArraySpec stage_spec(Normaliser normaliser, Rounding rounding) {
 std::int64_t fired(OutputStage& stage, std::int64_t v, std::int64_t sum) {
   stage.load(static_cast<std::int32_t>(v));
   stage.normalise(sum);
-  stage.bias_by_r();
+  stage.bias_by_r(stage.drive_raw());
   const std::int64_t moved = stage.publish();
   EXPECT_EQ(moved, std::abs(stage.state_raw() - v));
   return stage.state_raw();

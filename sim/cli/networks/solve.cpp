@@ -41,6 +41,7 @@ int solve(const SolveRequest& o) {
   try {
     const networks::TaskEnd end = networks::solve_task(
         task, array, o.array, level, {o.threshold, static_cast<std::uint32_t>(o.sweeps)}, o.out);
+    tell(end.notes);
     fmt::print("{}", end.text);
     return end.at_rest ? done : differs;
   } catch (const levels::Stopped&) {

@@ -8,9 +8,8 @@ namespace hopmesh::engine {
 using spec::Segment;
 
 ClockedEngine::ClockedEngine(const spec::ArraySpec& array, const spec::Topology& topology)
-    : topology_(topology), phases_(spec::phases_of(topology, array.schedule)),
-      cycles_(spec::cycle_model(array, topology, phases_)), plan_(array, topology),
-      layout_(array, topology, phases_), normalise_cycles_(spec::normalise_cycles(array)),
+    : ClockStepped(array, topology), layout_(array, topology, phases_),
+      drive_cycles_(spec::drive_cycles(array)), change_cycles_(spec::change_cycles(array)),
       beats_(plan_, layout_), row_(topology.neurons()) {
   const auto per_cell = static_cast<std::size_t>(topology.neurons_per_cell);
   for (std::size_t k = 0; k < row_.size(); ++k)
@@ -39,14 +38,6 @@ void ClockedEngine::write_outputs(std::size_t first, const std::uint32_t* words,
   }
 }
 
-void ClockedEngine::start(std::uint32_t threshold, std::uint32_t max_sweeps) {
-  threshold_ = threshold;
-  max_sweeps_ = std::max(max_sweeps, 1u);
-  result_ = {};
-  done_ = false;
-  enter(Segment::start);
-}
-
 // Most clocks lie inside a phase and add one tap: they take this short way.
 void ClockedEngine::step() {
   if (plain_.beat == nullptr || beat_ == 0 || beat_ + 1 >= length_) return step(1);
@@ -62,24 +53,10 @@ void ClockedEngine::step() {
   result_.cycles += 1;
 }
 
-void ClockedEngine::step(std::uint64_t clocks) {
-  while (clocks > 0 && segment_ != Segment::idle) {
-    const std::uint64_t left = length_ - beat_, some = std::min(clocks, left);
-    do_beats(beat_, beat_ + some);
-    clocks -= some;
-    result_.cycles += some;
-    beat_ += some;
-    if (some == left) leave_segment();
-  }
-}
-
-void ClockedEngine::enter(int segment) {
-  segment_ = segment;
-  beat_ = 0;
-  length_ = spec::segment_cycles(cycles_, segment);
+void ClockedEngine::entered() {
   plain_.beat = nullptr;
-  if (segment < Segment::first_phase) return;
-  const auto phase = static_cast<std::size_t>(segment - Segment::first_phase);
+  if (segment_ < Segment::first_phase) return;
+  const auto phase = static_cast<std::size_t>(segment_ - Segment::first_phase);
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
   firing_ = {phase / per_cell, phase % per_cell, phase % per_cell + 1};
   if (plan_.schedule == spec::Schedule::synchronous) firing_ = {0, 0, per_cell};
@@ -99,7 +76,7 @@ void ClockedEngine::enter(int segment) {
 void ClockedEngine::do_beats(std::uint64_t first, std::uint64_t last) {
   if (segment_ >= Segment::first_phase)
     do_phase(first, last);
-  else if (segment_ == Segment::prepare)
+  else
     do_prepare(first, last);
 }
 
@@ -114,13 +91,9 @@ void ClockedEngine::do_prepare(std::uint64_t first, std::uint64_t last) {
 // Accumulate, normalise, R u, publish: each row when its own beats are over, but all publish in the last one.
 void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
   const ClockedBank& bank = layout_.banks[firing_.bank];
-  if (first == 0) {
-    beats_.take_links(bank, firing_.first_p == 0);
-    if (segment_ == Segment::first_phase) largest_ = 0;
-  }
-  const auto from = static_cast<std::int64_t>(first - normalise_cycles_);
-  const auto to = from + static_cast<std::int64_t>(last - first);
-  const auto normalised = bank.with_beats(from + 1, to), pulled = bank.with_beats(from, to - 1);
+  if (first == 0) beats_.take_links(bank, firing_.first_p == 0);
+  const auto normalised = bank.with_beats_over(first, last, drive_cycles_);
+  const auto pulled = bank.with_beats_over(first, last, change_cycles_);
   for (std::size_t p = firing_.first_p; p < firing_.last_p; ++p) {
     const std::size_t row = bank.first_row + p * bank.width;
     if (first == 0) beats_.begin_sums(bank, p);
@@ -132,14 +105,24 @@ void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
   }
 }
 
-void ClockedEngine::leave_segment() {
-  if (segment_ == Segment::check) {
-    result_.sweeps += 1;
-    result_.largest_change = static_cast<std::uint32_t>(largest_);
-    result_.converged = largest_ <= threshold_;
-  }
-  enter(spec::next_segment(cycles_, segment_, result_.converged || result_.sweeps == max_sweeps_));
-  done_ = segment_ == Segment::idle;
+std::vector<Probe> ClockedEngine::probes(const std::vector<std::size_t>& cells) const {
+  const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
+  const spec::NeuronSignals signals = spec::neuron_signals(plan_.formats);
+  const auto phase = spec::phase_of_neurons(topology_, phases_);
+  std::vector<Probe> all;
+  for (std::size_t c : cells)
+    for (std::size_t p = 0; p < per_cell; ++p) {
+      const std::size_t row = row_[c * per_cell + p];
+      const int fires = static_cast<int>(phase[c * per_cell + p]);
+      std::vector<std::string> scopes{spec::cell_scope(c), spec::neuron_scope(p), spec::accumulator_scope};
+      all.push_back({scopes, signals.sum, &beats_.at.sum[row], nullptr, fires});
+      all.push_back({scopes, signals.norm, &beats_.at.norm[row], nullptr, Probe::in_prepare});
+      scopes.back() = spec::output_scope;
+      all.push_back({scopes, signals.drive, &beats_.at.drive[row], nullptr, fires});
+      all.push_back({scopes, signals.change, &beats_.at.change[row], nullptr, fires});
+      all.push_back({scopes, signals.state, nullptr, &beats_.at.state[row], fires});
+    }
+  return all;
 }
 
 } // namespace hopmesh::engine

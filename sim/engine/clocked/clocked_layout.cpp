@@ -22,14 +22,13 @@ std::vector<std::vector<std::uint32_t>> cells_of_banks(const spec::Topology& t, 
   return banks;
 }
 
-// Rows of n beats accumulate in n, are normalised in as many as that takes, and pulled in the next.
+// Rows of n beats accumulate in n, are normalised in as many as that takes, and pulled behind it.
 void list_beats(ClockedBank& bank, const spec::ArraySpec& array) {
   const auto places = [](std::size_t number) { return static_cast<std::uint32_t>(number); };
-  const std::uint64_t normalise_cycles = spec::normalise_cycles(array);
-  const std::uint64_t length = bank.beats() + normalise_cycles + spec::output_cycles(array);
+  const std::uint64_t length = bank.beats() + spec::stage_cycles(array);
   for (std::uint64_t b = 0; b < length; ++b) {
-    const auto over = static_cast<std::int64_t>(b) - static_cast<std::int64_t>(normalise_cycles);
-    const auto normalised = bank.with_beats(over + 1, over + 1), pulled = bank.with_beats(over, over);
+    const auto normalised = bank.with_beats_over(b, b + 1, spec::drive_cycles(array));
+    const auto pulled = bank.with_beats_over(b, b + 1, spec::change_cycles(array));
     bank.beat.push_back({b < bank.beats() ? places(bank.reach[b]) : 0, places(normalised.first),
                          places(normalised.second), places(pulled.first), places(pulled.second)});
   }

@@ -2,7 +2,7 @@
 // rows first, so that every beat of the phase works on a stretch of places.
 #pragma once
 
-#include "rtl_model/spec/schedule.h"
+#include "rtl_model/spec/cycles.h"
 #include "sim/engine/generic/lane_arithmetic.h"
 
 namespace hopmesh::engine {
@@ -43,6 +43,13 @@ struct ClockedBank {
     most = most > static_cast<std::int64_t>(beats()) ? static_cast<std::int64_t>(beats()) : most;
     if (least > most) return {0, 0};
     return {reach[static_cast<std::size_t>(most)], reach[static_cast<std::size_t>(least) - 1]};
+  }
+  /// Places whose sums were complete `cycles` cycles before one of the clocks [first, last) of the phase
+  /// ends.
+  std::pair<std::size_t, std::size_t> with_beats_over(std::uint64_t first, std::uint64_t last,
+                                                      std::uint64_t cycles) const {
+    const auto least = static_cast<std::int64_t>(first) - static_cast<std::int64_t>(cycles) + 1;
+    return with_beats(least, least + static_cast<std::int64_t>(last - first) - 1);
   }
 };
 

@@ -9,21 +9,24 @@ std::uint64_t unit_of(std::uint64_t period) {
   return period % 2000 == 0 ? 1000 : 1;
 }
 
+std::vector<std::size_t> cells_of(const WaveRequest& request, const spec::Topology& topology) {
+  std::vector<std::size_t> cells = request.cells;
+  for (std::size_t c = 0; request.cells.empty() && c < topology.cells(); ++c) cells.push_back(c);
+  return cells;
+}
+
 } // namespace
 
-ClockedVcd::ClockedVcd(const WaveRequest& request, const engine::ClockedEngine& array, std::uint64_t period,
+ClockedVcd::ClockedVcd(const WaveRequest& request, const engine::ClockStepped& array, std::uint64_t period,
                        bool irq_now)
-    : array_(array), period_(period), file_(request.file, unit_of(period)), of_phase_(array.phases().size()) {
+    : array_(array), period_(period), file_(request.file, unit_of(period)),
+      probes_(array.probes(cells_of(request, array.topology()))), of_phase_(array.phases().size()) {
   for (const char* scope : {"SystemC", "array_0", "device"}) file_.open_scope(scope);
   irq_ = add(spec::irq_signal);
   file_.open_scope(spec::cells_scope);
-  if (request.cells.empty())
-    for (std::size_t c = 0; c < array.topology().cells(); ++c) add_cell(c);
-  for (std::size_t c : request.cells) add_cell(c);
+  add_probes();
   add_sequencer();
   for (int k = 0; k < 4; ++k) file_.close_scope();
-  const auto phase = spec::phase_of_neurons(array.topology(), array.phases());
-  for (const Watched& w : watched_) of_phase_[phase[w.neuron]].push_back(w);
   file_.set(irq_, irq_now);
 }
 
@@ -31,26 +34,27 @@ std::size_t ClockedVcd::add(const spec::Signal& signal) {
   return file_.add(signal.name, signal.width);
 }
 
-void ClockedVcd::add_cell(std::size_t cell) {
-  const auto per_cell = static_cast<std::size_t>(array_.topology().neurons_per_cell);
-  file_.open_scope(spec::cell_scope(cell));
-  for (std::size_t p = 0; p < per_cell; ++p) add_neuron(cell * per_cell + p, spec::neuron_scope(p));
-  file_.close_scope();
-}
-
-void ClockedVcd::add_neuron(std::size_t neuron, const std::string& scope) {
-  const spec::NeuronSignals signals = spec::neuron_signals(array_.formats());
-  file_.open_scope(scope);
-  file_.open_scope(spec::accumulator_scope);
-  watched_.push_back({neuron, add(signals.sum)});
-  add(signals.norm);
-  file_.close_scope();
-  file_.open_scope(spec::output_scope);
-  add(signals.drive);
-  add(signals.change);
-  add(signals.state);
-  file_.close_scope();
-  file_.close_scope();
+// From one probe to the next, scopes that they do not share are closed and opened.
+void ClockedVcd::add_probes() {
+  std::vector<std::string> open;
+  const auto close_to = [&](std::size_t depth) {
+    for (; open.size() > depth; open.pop_back()) file_.close_scope();
+  };
+  for (const engine::Probe& probe : probes_) {
+    const auto end = open.begin() + static_cast<std::ptrdiff_t>(std::min(open.size(), probe.scopes.size()));
+    close_to(static_cast<std::size_t>(std::mismatch(open.begin(), end, probe.scopes.begin()).first -
+                                      open.begin()));
+    for (std::size_t k = open.size(); k < probe.scopes.size(); ++k) {
+      file_.open_scope(probe.scopes[k]);
+      open.push_back(probe.scopes[k]);
+    }
+    std::vector<Watched>& list = probe.changes == engine::Probe::in_all ? always_
+                                 : probe.changes == engine::Probe::in_prepare
+                                     ? of_prepare_
+                                     : of_phase_[static_cast<std::size_t>(probe.changes)];
+    list.push_back({&probe, add(probe.signal)});
+  }
+  close_to(0);
 }
 
 void ClockedVcd::add_sequencer() {
@@ -82,10 +86,9 @@ void ClockedVcd::at(std::uint64_t halves) {
 
 void ClockedVcd::show_host(std::uint64_t halves) {
   at(halves);
-  for (const Watched& w : watched_) {
-    show_norm(w);
-    show_phase(w);
-  }
+  show(always_);
+  show(of_prepare_);
+  for (const auto& watched : of_phase_) show(watched);
   file_.set(busy_, array_.busy());
   file_.set(sweeps_, array_.result().sweeps);
   if (!file_.begun()) file_.begin(time_);
@@ -106,11 +109,10 @@ void ClockedVcd::edge(std::uint64_t halves, int segment, bool asleep) {
   file_.set(clock_, 1);
   high_ = true;
   falls_ = halves + 1;
-  if (segment == spec::Segment::prepare)
-    for (const Watched& w : watched_) show_norm(w);
+  show(always_);
+  if (segment == spec::Segment::prepare) show(of_prepare_);
   if (segment >= spec::Segment::first_phase)
-    for (const Watched& w : of_phase_[static_cast<std::size_t>(segment - spec::Segment::first_phase)])
-      show_phase(w);
+    show(of_phase_[static_cast<std::size_t>(segment - spec::Segment::first_phase)]);
   show_sequencer(asleep);
 }
 
@@ -121,15 +123,8 @@ void ClockedVcd::show_sequencer(bool asleep) {
   file_.set(sweeps_, array_.result().sweeps);
 }
 
-void ClockedVcd::show_norm(const Watched& w) {
-  file_.set(w.signal + 1, array_.norm(w.neuron));
-}
-
-void ClockedVcd::show_phase(const Watched& w) {
-  file_.set(w.signal, array_.sum(w.neuron));
-  file_.set(w.signal + 2, array_.drive(w.neuron));
-  file_.set(w.signal + 3, array_.change(w.neuron));
-  file_.set(w.signal + 4, array_.state(w.neuron));
+void ClockedVcd::show(const std::vector<Watched>& watched) {
+  for (const Watched& w : watched) file_.set(w.signal, w.probe->code());
 }
 
 void ClockedVcd::irq(std::uint64_t halves, bool level) {

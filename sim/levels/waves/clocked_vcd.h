@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/signals.h"
-#include "sim/engine/clocked/clocked.h"
+#include "sim/engine/clocked/clock_stepped.h"
 #include "sim/files/vcd.h"
 #include "sim/levels/waves/wave_request.h"
 
@@ -13,7 +13,7 @@ namespace hopmesh::levels {
 class ClockedVcd {
  public:
   /// `irq`: of the array now.
-  ClockedVcd(const WaveRequest& request, const engine::ClockedEngine& array, std::uint64_t period, bool irq);
+  ClockedVcd(const WaveRequest& request, const engine::ClockStepped& array, std::uint64_t period, bool irq);
 
   /// What the host wrote, and that the array is busy.
   void show_host(std::uint64_t halves);
@@ -30,23 +30,23 @@ class ClockedVcd {
 
  private:
   struct Watched {
-    std::size_t neuron, signal; ///< s, N, u, Delta V, V from `signal` on
+    const engine::Probe* probe;
+    std::size_t signal;
   };
 
   std::size_t add(const spec::Signal& signal);
-  void add_cell(std::size_t cell);
-  void add_neuron(std::size_t neuron, const std::string& scope);
+  void add_probes();
   void add_sequencer();
   void at(std::uint64_t halves);
   void show_sequencer(bool asleep);
-  void show_norm(const Watched& w);
-  void show_phase(const Watched& w);
+  void show(const std::vector<Watched>& watched);
 
-  const engine::ClockedEngine& array_;
+  const engine::ClockStepped& array_;
   const std::uint64_t period_;
   files::VcdFile file_;
   std::size_t irq_ = 0, clock_ = 0, segment_ = 0, beat_ = 0, busy_ = 0, sweeps_ = 0;
-  std::vector<Watched> watched_;
+  const std::vector<engine::Probe> probes_;
+  std::vector<Watched> always_, of_prepare_; ///< what changes in every segment, and in prepare
   std::vector<std::vector<Watched>> of_phase_;
   std::uint64_t falls_ = 0, time_ = 0; ///< when the clock that is high falls; the last time shown
   bool high_ = false;

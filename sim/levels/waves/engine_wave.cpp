@@ -15,7 +15,8 @@ std::uint64_t period_of(const spec::ArraySpec& array) {
 } // namespace
 
 EngineWave::EngineWave(WaveRequest request, const spec::ArraySpec& array, const spec::Topology& topology)
-    : request_(std::move(request)), period_(period_of(array)), array_(array, topology) {
+    : request_(std::move(request)), period_(period_of(array)),
+      stepped_array_(engine::make_clock_stepped(array, topology)), array_(*stepped_array_) {
   check_wave(request_, topology.cells());
 }
 

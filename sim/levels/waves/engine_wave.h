@@ -2,8 +2,10 @@
 // engine computes runs; inside, the clock-stepped one does too.
 #pragma once
 
+#include "sim/engine/engine.h"
 #include "sim/levels/waves/clocked_vcd.h"
 
+#include <memory>
 #include <optional>
 
 namespace hopmesh::levels {
@@ -45,7 +47,8 @@ class EngineWave {
 
   const WaveRequest request_;
   const std::uint64_t period_; ///< picoseconds
-  engine::ClockedEngine array_;
+  const std::unique_ptr<engine::ClockStepped> stepped_array_;
+  engine::ClockStepped& array_;
   std::optional<ClockedVcd> vcd_;
   bool began_ = false, done_ = false, stepped_ = false; ///< stepped_: the run at hand is computed here, too
   bool irq_ = false;

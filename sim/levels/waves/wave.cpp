@@ -25,9 +25,10 @@ void Wave::open() {
   file_->set_time_unit(1, whole ? sc_core::SC_NS : sc_core::SC_PS);
   sc_core::sc_trace(file_, irq_, std::string(device_.name()) + ".irq");
   device_.cells.sequencer.trace(file_);
-  if (request_.cells.empty())
-    for (std::size_t c = 0; c < device_.cells.topology().cells(); ++c) device_.cells.cell(c).trace(file_);
-  for (std::size_t c : request_.cells) device_.cells.cell(c).trace(file_);
+  std::vector<std::size_t> cells = request_.cells;
+  for (std::size_t c = 0; request_.cells.empty() && c < device_.cells.topology().cells(); ++c)
+    cells.push_back(c);
+  device_.cells.trace_cells(file_, cells);
 }
 
 void Wave::close() {

@@ -74,6 +74,43 @@ TEST_F(CliInfo, FollowsTheArray) {
   EXPECT_EQ(row(good("info flag-400 --array prescaled").out, "run of n sweeps"), "1 + 361 n"); // 12 * 30 + 1
 }
 
+TEST_F(CliInfo, TellsTheRoundsOfAFold) {
+  EXPECT_EQ(row(good("info flag-400").out, "elements"), "one a neuron");
+  const std::string folded = good("info flag-400 --array folded").out;
+  EXPECT_EQ(row(folded, "elements"), "16, shared by the neurons of a phase");
+  EXPECT_EQ(row(folded, "multipliers"), "1 an element, 16 in all");
+  EXPECT_EQ(row(folded, "output stage"), "modified, one for all");
+  // 1 + 5 * 27 + 2 * 18 + 3 + 4
+  EXPECT_EQ(row(folded, "longest phase"), "179, in 7 rounds of at most 27 to accumulate, output stage of 4");
+  EXPECT_EQ(row(folded, "sweep"), "2,131");
+  // The rounds of all phases, none shorter than the one before has neurons: 3 (2 (5 * 27 + 2 * 18) + 2 * 6 *
+  // 27) cycles, the four neurons of the last one, and 19 for a reciprocal.
+  EXPECT_EQ(row(folded, "prepare, once a run"), "2,021");
+  EXPECT_EQ(row(folded, "accumulators"), "0.2 KiB");      // 16 * 2 * 43 bits
+  EXPECT_EQ(row(folded, "states and links"), "39.0 KiB"); // 1140 (24 + 16 * 16) bits
+  const std::string each = good("info flag-400 --set array.elements=4 --set array.pipeline=2 "
+                                "--set array.schedule=synchronous --set array.lanes=3")
+                               .out;
+  EXPECT_EQ(row(each, "multipliers"), "3 an element, 12 in all");
+  EXPECT_EQ(row(each, "output stage"), "modified, one an element, 2 registers of pipeline");
+  EXPECT_EQ(row(good("info flag-400 --set array.pipeline=2").out, "longest phase"),
+            "33 = 27 accumulate + 2 normalise + 2 output + 2 pipeline");
+}
+
+/// Allowed, and told in a line.
+TEST_F(CliInfo, TellsElementsThatNeverWork) {
+  EXPECT_EQ(good("info flag-400 --set array.elements=100").err, "");
+  EXPECT_EQ(
+      good("info flag-400 --set array.elements=2000").err,
+      "hopmesh: note: array.elements: 1,900 elements never work: 2,000 are more than the 100 neurons of "
+      "the largest phase\n");
+  EXPECT_EQ(
+      good("solve two-neurons --set array.elements=3").err,
+      "hopmesh: note: array.elements: 2 elements never work: 3 are more than the 1 neuron of the largest "
+      "phase\n");
+  EXPECT_EQ(good("solve two-neurons --set array.elements=1").err, "");
+}
+
 TEST_F(CliInfo, FollowsTheScene) {
   const std::string out = good("info two-nodes --set mesh.planar=true").out;
   EXPECT_EQ(row(out, "neurons"), "2 (2 a cell)");

@@ -1,0 +1,83 @@
+#include "rtl_model/systemc/pipelined_stage.h"
+
+#include "rtl_model/systemc/trace.h"
+
+namespace hopmesh::systemc {
+
+PipelinedStage::PipelinedStage(sc_core::sc_module_name name, const ArrayContext& context, LinkMemory& links,
+                               const std::vector<std::uint32_t>& neurons)
+    : sc_module(name), output(spec::output_scope, context.path, neurons.size()), context_(context),
+      links_(links), neurons_(neurons), drive_cycles_(spec::drive_cycles(context.array)),
+      change_cycles_(spec::change_cycles(context.array)), stage_cycles_(spec::stage_cycles(context.array)),
+      norm_cycles_(std::max<std::uint64_t>(1, spec::reciprocal_cycles(context.array))),
+      sums_(neurons.size()) {
+  SC_METHOD(fire_all);
+  sensitive << all_put_;
+  dont_initialize();
+}
+
+// The oldest first: it leaves a register before the next one writes it.
+void PipelinedStage::clock() {
+  bool out = false;
+  for (Passenger& passenger : inside_) out |= pass(passenger);
+  if (out) inside_.pop_front();
+}
+
+void PipelinedStage::enter(Passenger passenger) {
+  if (!pass(passenger)) inside_.push_back(passenger);
+}
+
+bool PipelinedStage::pass(Passenger& passenger) {
+  passenger.passed += 1;
+  if (passenger.is_norm) {
+    if (passenger.passed < norm_cycles_) return false;
+    output.set_norm(passenger.value, passenger.place);
+    return true;
+  }
+  if (passenger.passed == drive_cycles_) {
+    normalise(passenger.place, passenger.value);
+    passenger.drive = output.drive_raw();
+  }
+  if (passenger.passed == change_cycles_) output.bias_by_r(passenger.drive, passenger.place);
+  if (passenger.passed < stage_cycles_) return false;
+  publish(passenger.place);
+  return true;
+}
+
+void PipelinedStage::fire(std::size_t place, std::int64_t sum_raw) {
+  normalise(place, sum_raw);
+  output.bias_by_r(output.drive_raw(), place);
+  publish(place);
+}
+
+void PipelinedStage::put_sum(std::size_t place, std::int64_t sum_raw) {
+  sums_[place] = sum_raw;
+  first_put_ = std::min(first_put_, place);
+  last_put_ = std::max(last_put_, place);
+  all_put_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void PipelinedStage::fire_all() {
+  for (std::size_t place = first_put_; place <= last_put_; ++place) fire(place, sums_[place]);
+  first_put_ = SIZE_MAX;
+  last_put_ = 0;
+  links_.end_phase();
+}
+
+void PipelinedStage::normalise(std::size_t place, std::int64_t sum_raw) {
+  output.normalise(sum_raw, place);
+  context_.extremes.note(sum_raw, output.drive_raw());
+  shown_ = neurons_[place];
+}
+
+void PipelinedStage::publish(std::size_t place) {
+  context_.detector.report(output.publish(place));
+  links_.write(neurons_[place], output.link_raw(place));
+}
+
+void PipelinedStage::trace(sc_core::sc_trace_file* file) const {
+  trace_register(file, shown_, *this, spec::worked_signal);
+  output.trace(file);
+}
+
+} // namespace hopmesh::systemc

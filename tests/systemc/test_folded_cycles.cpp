@@ -1,0 +1,68 @@
+// Folded arrays to the cycle: every V absent at n - 1 and present at n, whatever shares the elements.
+#include "tests/systemc/cycle_bench.h"
+
+namespace hopmesh::tests {
+namespace {
+
+using systemc::Waking;
+
+/// In place of a normaliser.
+constexpr int binary = 3;
+
+class FoldedToTheCycle : public testing::TestWithParam<std::tuple<int, int, int>> {};
+
+TEST_P(FoldedToTheCycle, OutputsDoneAndCountersChangeWhenPromised) {
+  Benches benches;
+  const auto [schedule, normaliser, stages] = GetParam();
+  // Rows of 6 to 15 taps, of 2 to 18 neurons a phase.
+  const spec::Topology star = topology_of(6, 3, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}});
+  const auto add = [&](int elements, int lanes, int registers) {
+    for (Waking waking : {Waking::by_phase, Waking::by_clock}) {
+      spec::ArraySpec array = spec::guarded_array();
+      array.schedule = static_cast<spec::Schedule>(schedule);
+      array.normaliser = static_cast<spec::Normaliser>(normaliser % 3);
+      if (normaliser == binary) array.output = spec::Output::binary;
+      array.lanes = lanes;
+      array.elements = elements;
+      array.stages = static_cast<spec::Stages>(stages);
+      array.pipeline = std::min(registers, spec::most_pipeline(array));
+      ArrayJob job = lively_job(60 + static_cast<std::uint64_t>(elements), array, star);
+      job.max_sweeps = 2;
+      benches.push_back(std::make_unique<Bench>("dut" + std::to_string(benches.size()), job, waking));
+    }
+  };
+  for (int elements : {1, 2, 3, 5, 18, 40})
+    for (int lanes : {1, 27}) add(elements, lanes, 0); // rounds longer than their count, and shorter
+  for (int registers : {1, 2, 3, 4}) add(2, 3, registers);
+  run_beside_each_other(benches);
+}
+
+std::string names(const testing::TestParamInfo<std::tuple<int, int, int>>& param) {
+  const auto [schedule, normaliser, stages] = param.param;
+  return std::string(spec::schedule_names[schedule]) + "_" +
+         std::string(normaliser == binary ? "binary" : spec::normaliser_names[normaliser]) + "_" +
+         std::string(spec::stages_names[stages]);
+}
+INSTANTIATE_TEST_SUITE_P(All, FoldedToTheCycle,
+                         testing::Combine(testing::Range(0, 3), testing::Range(0, 4), testing::Range(0, 2)),
+                         names);
+
+/// Registers of stages that neurons have for themselves.
+TEST(Pipelined, OutputsOfCellsChangeWhenPromised) {
+  Benches benches;
+  for (int normaliser = 0; normaliser < 3; ++normaliser)
+    for (int registers = 1; registers <= 4; ++registers)
+      for (Waking waking : {Waking::by_phase, Waking::by_clock}) {
+        spec::ArraySpec array = spec::guarded_array();
+        array.normaliser = static_cast<spec::Normaliser>(normaliser);
+        if (registers > spec::most_pipeline(array)) continue;
+        array.pipeline = registers;
+        ArrayJob job = lively_job(90, array, ring_topology(5));
+        job.max_sweeps = 2;
+        benches.push_back(std::make_unique<Bench>("dut" + std::to_string(benches.size()), job, waking));
+      }
+  run_beside_each_other(benches);
+}
+
+} // namespace
+} // namespace hopmesh::tests
