@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/key_row.h"
+#include "rtl_model/spec/memory_map.h"
 
 namespace hopmesh::spec {
 
@@ -67,6 +68,11 @@ inline ArrayKeys structure_keys(ArraySpec& a) {
           .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
           .in_vectors(6)
           .plain(32),
+      ArrayKey("array.packing", &a.packing, "codes of 16 bits and less share the words of the bus")
+          .allows({"`true`, `false`"})
+          .counts_only(can_pack(a), "a weight, bias or state of at most 16 bits")
+          .in_vectors(30) // behind all others
+          .plain(false),
       ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
           .in_unit("MHz")
           .allows({"above 0, at most 10000", 0, most_mhz, true}),

@@ -12,7 +12,7 @@
 
 namespace hopmesh::cosim {
 
-inline constexpr const char* vectors_header = "hopmesh-vectors 2";
+inline constexpr const char* vectors_header = "hopmesh-vectors 3";
 
 struct VectorCase {
   std::string name; ///< one line

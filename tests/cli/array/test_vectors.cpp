@@ -173,8 +173,8 @@ TEST_P(CliVectorsFile, IsRefusedByNameAndLine) {
 
 const std::vector<Corruption> corruptions{
     {"Header", "hopmesh-vectors", "hopmesh-vectors 1",
-     "found \"hopmesh-vectors 1\", expected hopmesh-vectors 2"},
-    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 2"},
+     "found \"hopmesh-vectors 1\", expected hopmesh-vectors 3"},
+    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 3"},
     {"Case", "case ", "csae one", "expected case NAME (did you mean case?)"},
     {"CaseWithoutName", "case ", "case", "expected case NAME"},
     {"Schedule", "schedule ", "schedule colored",
@@ -232,7 +232,7 @@ TEST_F(CliVectors, ABlankCaseIsNoAnswer) {
 
 TEST_F(CliVectors, FilesThatAreNone) {
   write_text(at("empty.txt"), "");
-  write_text(at("head.txt"), "hopmesh-vectors 2\n# nothing\n");
+  write_text(at("head.txt"), "hopmesh-vectors 3\n# nothing\n");
   write_text(at("binary.txt"), std::string("\x7f\x45\x4c\x46\0\1\2", 7));
   std::filesystem::create_directory(at("folder"));
   for (const auto& [name, says] :
