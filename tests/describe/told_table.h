@@ -34,8 +34,8 @@ inline std::ostream& operator<<(std::ostream& out, const Told& t) {
 /// The table itself.
 inline std::vector<Told> table() {
   std::vector<Told> rows;
-#define HM_X(name, offset, access, reset, meaning)                                                           \
-  rows.push_back({#name, meaning, #access, offset, 0, reset, {}});                                           \
+#define HM_X(name, offset, access, reset_value, meaning)                                                     \
+  rows.push_back({#name, meaning, #access, offset, 0, reset_value, {}});                                     \
   if (offset >= HM_REG_CAP_CELLS && offset < HM_REG_CONTROL) rows.back().reset.reset();
   HM_REGISTERS(HM_X)
 #undef HM_X

@@ -233,7 +233,7 @@ class EngineDevice : public testing::TestWithParam<int> {};
 
 TEST_P(EngineDevice, AnswersAsSystemCDoes) {
   std::vector<std::unique_ptr<Lockstep>> all;
-  constexpr std::uint64_t devices = 40, sequences = 625;
+  constexpr std::uint64_t devices = 40, sequences = 2500;
   const std::uint64_t first = 1000000 + devices * static_cast<std::uint64_t>(GetParam());
   for (std::uint64_t seed = first; seed < first + devices; ++seed)
     all.push_back(std::make_unique<Lockstep>(seed));
@@ -249,13 +249,13 @@ TEST_P(EngineDevice, AnswersAsSystemCDoes) {
     all[k]->settle();
     sum.add(all[k]->tally());
   }
-  EXPECT_GT(sum.accepted, 5000 * devices);
-  EXPECT_GT(sum.refused, 1000 * devices);
+  EXPECT_GT(sum.accepted, 20000 * devices);
+  EXPECT_GT(sum.refused, 4000 * devices);
   EXPECT_GT(sum.waits, 200 * devices);
-  EXPECT_GT(sum.polled_ends, 50 * devices);
-  EXPECT_GT(sum.resets, 50 * devices);
-  EXPECT_GT(sum.refused_starts, 100 * devices);
-  EXPECT_GT(sum.aborts, 100 * devices);
+  EXPECT_GT(sum.polled_ends, 200 * devices);
+  EXPECT_GT(sum.resets, 200 * devices);
+  EXPECT_GT(sum.refused_starts, 400 * devices);
+  EXPECT_GT(sum.aborts, 400 * devices);
 }
 
 INSTANTIATE_TEST_SUITE_P(Batch, EngineDevice, testing::Range(0, 4));

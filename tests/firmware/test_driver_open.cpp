@@ -52,11 +52,11 @@ TEST_F(DriverTest, OpenRefusesAnotherDevice) {
 
 /// Version 1.1 had its windows at places of its own: nothing more is asked of it.
 TEST_F(DriverTest, OpenRefusesAnotherMajorVersionAndTellsWhich) {
-  for (std::uint32_t version : {0x00010001u, 0x00010000u, 0x00030000u, 0u}) {
+  for (std::uint32_t other : {0x00010001u, 0x00010000u, 0x00030000u, 0u}) {
     bus.expect_read(HM_REG_ID, HM_ID_VALUE);
-    bus.expect_read(HM_REG_VERSION, version);
+    bus.expect_read(HM_REG_VERSION, other);
     EXPECT_EQ(open(), HM_ERROR_VERSION);
-    EXPECT_EQ(driver.version, version);
+    EXPECT_EQ(driver.version, other);
     EXPECT_EQ(bus.outstanding(), 0u);
   }
 }

@@ -51,7 +51,8 @@ TEST_F(Debug, GivesAsManyWholeWordsAsThereAre) {
     EXPECT_EQ(debug(read, w.base, words.data(), 4 * (w.words + 8)), 4 * w.words) << w.name;
     EXPECT_EQ(words[w.words], -77) << w.name;
     EXPECT_EQ(debug(read, w.base + 4 * (w.words - 1), words.data(), 4096), 4u) << w.name;
-    EXPECT_EQ(debug(read, w.base + 4 * w.words, words.data(), 4), 0u) << w.name;
+    const bool meets_another = w.name == "LINK"; // whose words fill a power of two
+    EXPECT_EQ(debug(read, w.base + 4 * w.words, words.data(), 4), meets_another ? 4u : 0u) << w.name;
   }
   Words words(4, -77);
   EXPECT_EQ(debug(read, HM_REG_ID, words.data(), 16), 4u);
