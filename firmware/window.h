@@ -36,7 +36,7 @@ typedef struct hm_stream {
 hm_stream hm_stream_open(const hm_line* line, const hm_window* window, const hm_format* format, int shift);
 /* As many values as there are, in bursts of a full buffer. HM_OK, or an error of the bus. */
 int hm_stream_put(hm_stream* stream, const double* values, uint32_t count);
-/* The same, each value divided by `norm` before it is scaled. */
+/* As hm_stream_put, each value divided by `norm` before it is scaled. */
 int hm_stream_put_row(hm_stream* stream, const double* values, uint32_t count, double norm);
 /* Sends what still waits. */
 int hm_stream_end(hm_stream* stream);

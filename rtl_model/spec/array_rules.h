@@ -68,7 +68,7 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   return std::nullopt;
 }
 
-/// The same for a mesh or network, which knows its longest row, and how much of the bus its windows take.
+/// As validate(), for a mesh or network, which knows its longest row, and how much of the bus its windows take.
 inline std::optional<SpecFault> validate_on(const ArraySpec& a, const Topology& t) {
   if (auto fault = validate(a, t.most_taps())) return fault;
   const std::uint64_t span = memory_map(a, t).span;

@@ -19,7 +19,7 @@ std::string error_text(int error);
 
 /// Throws Stopped where the user stopped a wait, and std::runtime_error for any other error.
 void check(int error);
-/// The same of hm_driver_open, which knows what it found.
+/// As check(), of hm_driver_open, which knows what it found.
 void check_opened(int error, const hm_driver& driver);
 
 } // namespace hopmesh::levels

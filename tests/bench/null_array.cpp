@@ -8,10 +8,11 @@
 namespace hopmesh::bench {
 
 NullArray::NullArray(const spec::ArraySpec& array, const spec::Topology& topology)
-    : topology_(topology), map_(spec::memory_map(array, topology)), weight_(map_[spec::Window::WEIGHT].words()),
-      bias_(map_[spec::Window::BIAS].words()), output_(map_[spec::Window::OUTPUT].words()), registers_{{HM_REG_ID, HM_ID_VALUE},
-                                              {HM_REG_VERSION, HM_VERSION_VALUE},
-                                              {HM_REG_SWEEPS, 1}} {
+    : topology_(topology), map_(spec::memory_map(array, topology)),
+      weight_(map_[spec::Window::WEIGHT].words()), bias_(map_[spec::Window::BIAS].words()),
+      output_(map_[spec::Window::OUTPUT].words()), registers_{{HM_REG_ID, HM_ID_VALUE},
+                                                              {HM_REG_VERSION, HM_VERSION_VALUE},
+                                                              {HM_REG_SWEEPS, 1}} {
   const std::size_t phases = spec::phases_of(topology, array.schedule).size();
   for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
     registers_[offset] = word;

@@ -71,7 +71,8 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
 
 // The firmware's units by floor: a unit includes only units of floors below it. What all formulations of a
 // step stand on knows none of them.
-const std::vector<Rooms> firmware_floors = {{"bus", "registers", "doubles"},
+const std::vector<Rooms> firmware_floors = {{"register_fields"},
+                                            {"bus", "registers", "doubles"},
                                             {"host_bus", "try"},
                                             {"network", "quantise"},
                                             {"springs", "relax", "window"},

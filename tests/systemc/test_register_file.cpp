@@ -193,6 +193,31 @@ TEST(Fields, FitTheirRegisters) {
   EXPECT_EQ(at, fields.size());
 }
 
+/// What the capabilities tell of windows, against the page's rule.
+void expect_map(Dut& dut, const std::vector<WindowRow>& rows) {
+  EXPECT_EQ(dut.read(HM_REG_CAP_WEIGHT_WORDS), rows[4].words);
+  EXPECT_EQ(dut.read(HM_REG_CAP_MOMENTUM_WORDS), 0u);
+  std::uint64_t end = 0, span = 1;
+  for (std::size_t w = 0; w < rows.size(); ++w) {
+    EXPECT_EQ(dut.read(static_cast<std::uint32_t>(HM_REG_CAP_WINDOW_FIRST_LINK + 4 * w)), rows[w].base)
+        << rows[w].name;
+    end = std::max<std::uint64_t>(end, rows[w].base + 4 * rows[w].words);
+  }
+  while (span < end) span *= 2;
+  EXPECT_EQ(dut.read(HM_REG_CAP_SPAN), span);
+}
+
+std::uint32_t packing_of(const spec::ArraySpec& array) {
+  const auto share = [&](int width) { return !array.packing || width > 16 ? 1u : width > 8 ? 2u : 4u; };
+  const spec::Formats& f = array.formats;
+  return share(f.bias.width) + 256 * share(f.state.width) + 65536 * share(f.weight.width) + 16777216;
+}
+
+std::uint32_t format(const spec::NumberFormat& f) {
+  return static_cast<std::uint32_t>(f.width + 256 * f.integer_bits + 65536 * static_cast<int>(f.rounding) +
+                                    16777216 * static_cast<int>(f.overflow));
+}
+
 /// Capabilities of arrays made at random say what was built.
 TEST(Capabilities, DescribeTheArray) {
   struct Built {
@@ -209,10 +234,6 @@ TEST(Capabilities, DescribeTheArray) {
     b.dut = std::make_unique<Dut>(("dut" + std::to_string(seed)).c_str(), b.array, b.topology);
     all.push_back(std::move(b));
   }
-  const auto format = [](const spec::NumberFormat& f) {
-    return static_cast<std::uint32_t>(f.width + 256 * f.integer_bits + 65536 * static_cast<int>(f.rounding) +
-                                      16777216 * static_cast<int>(f.overflow));
-  };
   for (std::size_t k = 0; k < all.size(); ++k) {
     SCOPED_TRACE("seed " + std::to_string(k + 1));
     const auto& [array, t, dut] = all[k];
@@ -224,21 +245,8 @@ TEST(Capabilities, DescribeTheArray) {
     expect(HM_REG_CAP_CELLS, t.first_link.size() - 1);
     expect(HM_REG_CAP_NEURONS_PER_CELL, t.neurons_per_cell);
     expect(HM_REG_CAP_LINK_WORDS, t.link_to.size());
-    const auto rows = window_rows(t, array);
-    expect(HM_REG_CAP_WEIGHT_WORDS, rows[4].words);
-    expect(HM_REG_CAP_MOMENTUM_WORDS, 0);
-    std::uint64_t end = 0, span = 1;
-    for (std::size_t w = 0; w < rows.size(); ++w) {
-      expect(static_cast<std::uint32_t>(HM_REG_CAP_WINDOW_FIRST_LINK + 4 * w), rows[w].base);
-      end = std::max<std::uint64_t>(end, rows[w].base + 4 * rows[w].words);
-    }
-    while (span < end) span *= 2;
-    expect(HM_REG_CAP_SPAN, span);
-    const auto share = [&, packs = array.packing](int width) {
-      return !packs || width > 16 ? 1 : width > 8 ? 2 : 4;
-    };
-    expect(HM_REG_CAP_PACKING,
-           share(f.bias.width) + 256 * share(f.state.width) + 65536 * share(f.weight.width) + 16777216);
+    expect_map(*dut, window_rows(t, array));
+    expect(HM_REG_CAP_PACKING, packing_of(array));
     expect(HM_REG_CAP_PHASES, colours);
     expect(HM_REG_CAP_SCHEDULE, static_cast<std::uint32_t>(array.schedule));
     expect(HM_REG_CAP_NORMALISER, static_cast<std::uint32_t>(array.normaliser));
