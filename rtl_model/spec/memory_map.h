@@ -12,9 +12,10 @@ namespace hopmesh::spec {
 #define HM_X(name, access, meaning) name,
 enum class Window : std::uint8_t { HM_WINDOWS(HM_X) };
 #undef HM_X
-#define HM_X(name, access, meaning) +1
-inline constexpr std::size_t window_count = 0 HM_WINDOWS(HM_X);
+#define HM_X(name, access, meaning) Window::name,
+inline constexpr Window windows[] = {HM_WINDOWS(HM_X)};
 #undef HM_X
+inline constexpr std::size_t window_count = std::size(windows);
 
 /// Whether a host may write to the window.
 inline bool is_writable(Window w) {

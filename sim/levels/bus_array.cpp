@@ -100,7 +100,7 @@ std::uint32_t BusArray::max_sweeps() const {
 std::vector<std::uint32_t> BusArray::capabilities() const {
   std::vector<std::uint32_t> words;
 #define HM_X(name, offset, access, reset, meaning)                                                           \
-  if (offset >= HM_REG_CAP_CELLS && offset < HM_REG_CONTROL) words.push_back(read(offset));
+  if ((offset) >= HM_REG_CAP_CELLS && (offset) < HM_REG_CONTROL) words.push_back(read(offset));
   HM_REGISTERS(HM_X)
 #undef HM_X
   return words;
