@@ -17,13 +17,14 @@ typedef struct hm_bus {
 enum {
   HM_OK = 0,
   HM_ERROR_BUS = -1,     /* the platform's bus refused a transfer */
-  HM_ERROR_ID = -2,      /* no Hopmesh array, or a version this driver does not know */
+  HM_ERROR_ID = -2,      /* no Hopmesh array */
   HM_ERROR_MESH = -3,    /* the array was built for another mesh */
   HM_ERROR_NUMBER = -4,  /* a weight, bias or start value is not finite */
   HM_ERROR_BUSY = -5,    /* the array was running when it should not */
   HM_ERROR_SPACE = -6,   /* the caller's buffer is too small */
   HM_ERROR_STOPPED = -7, /* the platform asked to stop waiting */
-  HM_ERROR_LOST = -8     /* a node would have no finite place or velocity after the step */
+  HM_ERROR_LOST = -8,    /* a node would have no finite place or velocity after the step */
+  HM_ERROR_VERSION = -9  /* the array's registers are of a version that this driver does not know */
 };
 
 #endif

@@ -3,12 +3,7 @@
 
 #include "firmware/doubles.h"
 #include "firmware/registers.h"
-
-#define TRY(call)                                                                                            \
-  do {                                                                                                       \
-    const int error_ = (call);                                                                               \
-    if (error_ != HM_OK) return error_;                                                                      \
-  } while (0)
+#include "firmware/try.h"
 
 static uint32_t whole_places(double threshold, const hm_format* format) {
   const hm_format places = {32, 32 - hm_fraction_bits(format), HM_TRN_ZERO, HM_SAT};
@@ -19,18 +14,21 @@ static uint32_t whole_places(double threshold, const hm_format* format) {
 /* ---- what stands behind the bus ---- */
 
 static int read_register(const hm_driver* d, uint32_t offset, uint32_t* word) {
-  return d->bus->read(d->bus->context, offset, word);
+  return d->line.bus->read(d->line.bus->context, offset, word);
 }
 
 static int write_register(const hm_driver* d, uint32_t offset, uint32_t word) {
-  return d->bus->write(d->bus->context, offset, word);
+  return d->line.bus->write(d->line.bus->context, offset, word);
 }
 
 static int read_format(const hm_driver* d, uint32_t offset, hm_format* format) {
   uint32_t word;
   TRY(read_register(d, offset, &word));
-  *format = (hm_format){(int)(word & 255), (int)(int8_t)(word >> 8 & 255), (int)(word >> 16 & 255),
-                        (int)(word >> 24)};
+  /* Every format register has the fields of this one. */
+  *format = (hm_format){(int)HM_FIELD(word, CAP_FORMAT_WEIGHT_WIDTH),
+                        (int)(int8_t)HM_FIELD(word, CAP_FORMAT_WEIGHT_INTEGER_BITS),
+                        (int)HM_FIELD(word, CAP_FORMAT_WEIGHT_ROUNDING),
+                        (int)HM_FIELD(word, CAP_FORMAT_WEIGHT_OVERFLOW)};
   return HM_OK;
 }
 
@@ -40,12 +38,17 @@ static int expect(const hm_driver* d, uint32_t offset, uint32_t wanted, int othe
   return word == wanted ? HM_OK : otherwise;
 }
 
-static int expect_window(const hm_driver* d, uint32_t address, const uint32_t* wanted, uint32_t count) {
+/* The window that begins where this register says. */
+static int expect_words(const hm_driver* d, uint32_t offset_register, const uint32_t* wanted,
+                        uint32_t count) {
+  const hm_line* line = &d->line;
+  uint32_t offset;
+  TRY(read_register(d, offset_register, &offset));
   for (uint32_t done = 0; done < count;) {
-    const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
-    TRY(d->bus->read_burst(d->bus->context, address + 4 * done, d->buffer, part));
+    const uint32_t part = count - done < line->buffer_words ? count - done : line->buffer_words;
+    TRY(line->bus->read_burst(line->bus->context, offset + 4 * done, line->buffer, part));
     for (uint32_t k = 0; k < part; ++k)
-      if (d->buffer[k] != wanted[done + k]) return HM_ERROR_MESH;
+      if (line->buffer[k] != wanted[done + k]) return HM_ERROR_MESH;
     done += part;
   }
   return HM_OK;
@@ -56,17 +59,36 @@ static int expect_mesh(const hm_driver* d, const hm_mesh* mesh) {
   TRY(expect(d, HM_REG_CAP_CELLS, mesh->cells, HM_ERROR_MESH));
   TRY(expect(d, HM_REG_CAP_NEURONS_PER_CELL, mesh->components, HM_ERROR_MESH));
   TRY(expect(d, HM_REG_CAP_LINK_WORDS, links, HM_ERROR_MESH));
-  TRY(expect_window(d, HM_WINDOW_FIRST_LINK, mesh->first_link, mesh->cells + 1));
-  return expect_window(d, HM_WINDOW_LINK, mesh->link_to, links);
+  TRY(expect_words(d, HM_REG_CAP_WINDOW_FIRST_LINK, mesh->first_link, mesh->cells + 1));
+  return expect_words(d, HM_REG_CAP_WINDOW_LINK, mesh->link_to, links);
 }
 
-int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
-                   uint32_t buffer_words) {
-  *d = (hm_driver){.bus = bus, .buffer = buffer, .buffer_words = buffer_words};
-  if (buffer_words < 1) return HM_ERROR_SPACE;
+static int find_window(const hm_driver* d, uint32_t offset_register, uint32_t codes_a_word,
+                       hm_window* window) {
+  window->codes_a_word = codes_a_word;
+  if (codes_a_word != 1 && codes_a_word != 2 && codes_a_word != 4) return HM_ERROR_ID;
+  return read_register(d, offset_register, &window->offset);
+}
+
+static int find_windows(hm_driver* d) {
+  uint32_t packing;
+  TRY(read_register(d, HM_REG_CAP_PACKING, &packing));
+  TRY(find_window(d, HM_REG_CAP_WINDOW_BIAS, HM_FIELD(packing, CAP_PACKING_BIAS), &d->biases));
+  TRY(find_window(d, HM_REG_CAP_WINDOW_OUTPUT, HM_FIELD(packing, CAP_PACKING_OUTPUT), &d->outputs));
+  return find_window(d, HM_REG_CAP_WINDOW_WEIGHT, HM_FIELD(packing, CAP_PACKING_WEIGHT), &d->weights);
+}
+
+/* A minor version only adds what a driver need not know. */
+static int expect_version(hm_driver* d) {
+  TRY(read_register(d, HM_REG_VERSION, &d->version));
+  return HM_FIELD(d->version, VERSION_MAJOR) == HM_VERSION_MAJOR ? HM_OK : HM_ERROR_VERSION;
+}
+
+static int look_at(hm_driver* d, const hm_mesh* mesh) {
   TRY(expect(d, HM_REG_ID, HM_ID_VALUE, HM_ERROR_ID));
-  TRY(expect(d, HM_REG_VERSION, HM_VERSION_VALUE, HM_ERROR_ID));
+  TRY(expect_version(d));
   TRY(expect_mesh(d, mesh));
+  TRY(find_windows(d));
   TRY(read_register(d, HM_REG_CAP_NORMALISER, &d->normaliser));
   TRY(read_register(d, HM_REG_CAP_OUTPUT, &d->output));
   TRY(read_format(d, HM_REG_CAP_FORMAT_WEIGHT, &d->weight));
@@ -75,55 +97,15 @@ int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_
   return write_register(d, HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
 }
 
+int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
+                   uint32_t buffer_words) {
+  *d = (hm_driver){.line = {bus, buffer, buffer_words}};
+  const int error = buffer_words < 1 ? HM_ERROR_SPACE : look_at(d, mesh);
+  if (error != HM_OK) d->line.bus = 0;
+  return error;
+}
+
 /* ---- loading a network ---- */
-
-/* Words on their way into a window, sent whenever the buffer is full. */
-typedef struct stream {
-  hm_driver* driver;
-  uint32_t address, waiting;
-  const hm_format* format;
-  double scale; /* values times this count in the format's last places */
-} stream;
-
-static stream open_stream(hm_driver* d, uint32_t address, const hm_format* format, int shift) {
-  return (stream){d, address, 0, format, hm_power_of_two(shift + hm_fraction_bits(format))};
-}
-
-static int flush(stream* s) {
-  const hm_bus* bus = s->driver->bus;
-  if (s->waiting == 0) return HM_OK;
-  TRY(bus->write_burst(bus->context, s->address, s->driver->buffer, s->waiting));
-  s->address += 4 * s->waiting;
-  s->waiting = 0;
-  return HM_OK;
-}
-
-/* As many values as there are, in bursts of a full buffer. */
-static int put(stream* s, const double* values, uint32_t count) {
-  hm_driver* d = s->driver;
-  while (count > 0) {
-    const uint32_t room = d->buffer_words - s->waiting, part = count < room ? count : room;
-    d->clipped += hm_codes(values, part, s->scale, s->format, d->buffer + s->waiting);
-    s->waiting += part;
-    values += part;
-    count -= part;
-    if (s->waiting == d->buffer_words) TRY(flush(s));
-  }
-  return HM_OK;
-}
-
-/* A row, each value divided by `norm` before it is scaled. */
-static int put_row(stream* s, const double* values, uint32_t count, double norm) {
-  double divided[64];
-  while (count > 0) {
-    const uint32_t part = count < 64 ? count : 64;
-    for (uint32_t k = 0; k < part; ++k) divided[k] = values[k] / norm;
-    TRY(put(s, divided, part));
-    values += part;
-    count -= part;
-  }
-  return HM_OK;
-}
 
 typedef union double_bits { /* C11, 6.5.2.3: both read the same bytes */
   double value;
@@ -180,34 +162,40 @@ static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t 
   return norm > 0 ? norm : 1;
 }
 
+static int end_counted(hm_driver* d, hm_stream* stream) {
+  d->clipped += stream->clipped;
+  return hm_stream_end(stream);
+}
+
 /* Rows lie one behind the other, as the window has them. */
 static int load_weights(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  stream weights = open_stream(d, HM_WINDOW_WEIGHT, &d->weight, shift);
-  TRY(put(&weights, network->weight, hm_weight_count(mesh)));
-  return flush(&weights);
+  hm_stream weights = hm_stream_open(&d->line, &d->weights, &d->weight, shift);
+  TRY(hm_stream_put(&weights, network->weight, hm_weight_count(mesh)));
+  return end_counted(d, &weights);
 }
 
 static int load_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, shift);
-  TRY(put(&biases, network->bias, hm_neuron_count(mesh)));
-  return flush(&biases);
+  hm_stream biases = hm_stream_open(&d->line, &d->biases, &d->bias, shift);
+  TRY(hm_stream_put(&biases, network->bias, hm_neuron_count(mesh)));
+  return end_counted(d, &biases);
 }
 
 static int load_prescaled_weights(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
-  stream weights = open_stream(d, HM_WINDOW_WEIGHT, &d->weight, 0);
+  hm_stream weights = hm_stream_open(&d->line, &d->weights, &d->weight, 0);
   for (uint32_t c = 0; c < mesh->cells; ++c)
     for (uint32_t p = 0; p < mesh->components; ++p)
-      TRY(put_row(&weights, network->weight + hm_row_offset(mesh, c, p), hm_row_length(mesh, c),
-                  row_norm(mesh, network, c, p)));
-  return flush(&weights);
+      TRY(hm_stream_put_row(&weights, network->weight + hm_row_offset(mesh, c, p), hm_row_length(mesh, c),
+                            row_norm(mesh, network, c, p)));
+  return end_counted(d, &weights);
 }
 
 static int load_prescaled_biases(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
-  stream biases = open_stream(d, HM_WINDOW_BIAS, &d->bias, 0);
+  hm_stream biases = hm_stream_open(&d->line, &d->biases, &d->bias, 0);
   for (uint32_t c = 0; c < mesh->cells; ++c)
     for (uint32_t p = 0; p < mesh->components; ++p)
-      TRY(put_row(&biases, network->bias + c * mesh->components + p, 1, row_norm(mesh, network, c, p)));
-  return flush(&biases);
+      TRY(hm_stream_put_row(&biases, network->bias + c * mesh->components + p, 1,
+                            row_norm(mesh, network, c, p)));
+  return end_counted(d, &biases);
 }
 
 /* Only the sign of a binary neuron's s counts: no row is divided, and W stays symmetric. */
@@ -224,12 +212,11 @@ static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* networ
   return load_biases(d, mesh, network, shift);
 }
 
+/* An output is never scaled: it cannot clip what the network says. */
 static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
-  const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
-  stream outputs = open_stream(d, HM_WINDOW_OUTPUT, &d->state, 0);
-  TRY(put(&outputs, network->output, hm_neuron_count(mesh)));
-  d->clipped = clipped;
-  return flush(&outputs);
+  hm_stream outputs = hm_stream_open(&d->line, &d->outputs, &d->state, 0);
+  TRY(hm_stream_put(&outputs, network->output, hm_neuron_count(mesh)));
+  return hm_stream_end(&outputs);
 }
 
 /* ---- one relaxation ---- */
@@ -239,7 +226,7 @@ static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_swe
   TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
   TRY(write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
   TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
-  TRY(d->bus->wait(d->bus->context));
+  TRY(d->line.bus->wait(d->line.bus->context));
   return write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);
 }
 
@@ -256,15 +243,8 @@ static int read_counters(const hm_driver* d, hm_relaxation* result) {
 }
 
 static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* network) {
-  const uint32_t count = hm_neuron_count(mesh);
   const double last_place = 1 / hm_power_of_two(hm_fraction_bits(&d->state));
-  for (uint32_t done = 0; done < count;) {
-    const uint32_t part = count - done < d->buffer_words ? count - done : d->buffer_words;
-    TRY(d->bus->read_burst(d->bus->context, HM_WINDOW_OUTPUT + 4 * done, d->buffer, part));
-    for (uint32_t k = 0; k < part; ++k) network->output[done + k] = (int32_t)d->buffer[k] * last_place;
-    done += part;
-  }
-  return HM_OK;
+  return hm_window_read(&d->line, &d->outputs, last_place, network->output, hm_neuron_count(mesh));
 }
 
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,

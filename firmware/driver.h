@@ -6,23 +6,25 @@
 #include "firmware/bus.h"
 #include "firmware/quantise.h"
 #include "firmware/relax.h"
+#include "firmware/window.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct hm_driver {
-  const hm_bus* bus;
-  uint32_t* buffer; /* caller's: room for one burst */
-  uint32_t buffer_words;
+  hm_line line;     /* no bus: not opened yet */
+  uint32_t version; /* of the array's registers, as VERSION holds it */
   uint32_t normaliser, output;
   hm_format weight, bias, state;
+  hm_window weights, biases, outputs;
   uint32_t clipped; /* weights and biases of the last load that did not fit their format */
   int shift;        /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
 
 /* Looks at the array behind `bus` and checks that it was built for `mesh`. `buffer` is the longest burst, 1
-   word or more. HM_OK, or HM_ERROR_ID, _MESH, _BUS, _SPACE. */
+   word or more. HM_OK, or HM_ERROR_ID, _VERSION, _MESH, _BUS, _SPACE; with _VERSION, driver->version is what
+   was found. */
 int hm_driver_open(hm_driver* driver, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
                    uint32_t buffer_words);
 

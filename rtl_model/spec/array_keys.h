@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/key_row.h"
+#include "rtl_model/spec/memory_map.h"
 
 namespace hopmesh::spec {
 
@@ -11,7 +12,7 @@ inline constexpr int least_width = 4, most_width = 32; ///< of every format but 
 inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
 inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
 inline constexpr int most_lanes = 64;
-inline constexpr int most_elements = 65536;
+inline constexpr int most_elements = 4096;
 inline constexpr int most_registers =
     4; ///< of a pipeline; most_pipeline knows how many a normaliser can have
 inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
@@ -96,6 +97,11 @@ inline ArrayKeys clock_keys(ArraySpec& a) {
           .allows({"32, 64 or 128", 32, 128, false, {bus_widths.begin(), bus_widths.end()}})
           .in_vectors(9)
           .plain(32),
+      ArrayKey("array.packing", &a.packing, "codes of 16 bits and less share the words of the bus")
+          .allows({"`true`, `false`"})
+          .counts_only(can_pack(a), "a weight, bias or state of at most 16 bits")
+          .in_vectors(30) // behind all others
+          .plain(false),
       ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
           .in_unit("MHz")
           .allows({"above 0, at most 10000", 0, most_mhz, true}),

@@ -78,6 +78,15 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   return detail::pipeline_fault(a);
 }
 
+/// As validate(), for a mesh or network, which knows its longest row, and how much of the bus its windows take.
+inline std::optional<SpecFault> validate_on(const ArraySpec& a, const Topology& t) {
+  if (auto fault = validate(a, t.most_taps())) return fault;
+  const std::uint64_t span = memory_map(a, t).span;
+  if (span <= most_span) return std::nullopt;
+  return SpecFault{"array.packing", std::to_string(span >> 30) + " GiB of registers and windows",
+                   "at most 4, which 32 address bits reach: a smaller network, or codes that share words"};
+}
+
 /// `guarded`: state with eight guard bits behind the link, everything rounded to nearest, truncated
 /// reciprocal. What an array is that nobody changed.
 inline ArraySpec guarded_array() {

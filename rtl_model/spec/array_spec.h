@@ -72,6 +72,9 @@ struct ArraySpec {
   bool exact_accumulator = true;
   /// Data width of the host bus: 32, 64 or 128. Changes only the cycles that transfers hold it.
   int bus_bits = 32;
+  /// Codes of half a word and less share words of the host bus. Changes only the cycles that transfers hold
+  /// it.
+  bool packing = false;
   /// Only for times in seconds; changes neither bits nor cycles.
   double clock_mhz = 100.0;
   Formats formats;
@@ -103,16 +106,16 @@ inline int most_pipeline(const ArraySpec& a) {
   return a.normaliser == Normaliser::prescaled ? 3 : 4;
 }
 
-/// Width that holds every sum of a row of `taps` products and its bias without loss
+/// The least format that holds every sum of a row of `taps` products and its bias without loss
 /// (docs/hardware/datapath.md). Its fraction is that of a product, or of the bias where that is finer.
 inline NumberFormat exact_accumulator_format(const Formats& f, std::size_t taps) {
-  const int product_fraction = f.weight.fraction_bits() + f.link.fraction_bits();
-  const int fraction = std::max(product_fraction, f.bias.fraction_bits());
-  const int product_integer =
-      f.weight.integer_bits + 1; // |link| <= 1: the magnitude is a weight's, plus sign room
-  int growth = 0;
-  while ((std::size_t{1} << growth) < taps + 1) ++growth;
-  const int integer = std::max(product_integer, f.bias.integer_bits) + growth;
+  const int fraction = std::max(f.weight.fraction_bits() + f.link.fraction_bits(), f.bias.fraction_bits());
+  // A sum lies within taps * 2^(integer bits - 1) of weights, as |link| <= 1, and 2^(integer bits - 1) of
+  // bias.
+  const std::uint64_t bound =
+      (static_cast<std::uint64_t>(taps) << (f.weight.integer_bits - 1)) + (1u << (f.bias.integer_bits - 1));
+  int integer = 1; // the sign
+  while (bound >> (integer - 1) != 0) ++integer;
   return NumberFormat{integer + fraction, integer, Rounding::trn, Overflow::wrap};
 }
 

@@ -2,11 +2,7 @@
 // description of the array meet, so here both are held to one numbering.
 #pragma once
 
-#include "firmware/registers.h"
-#include "rtl_model/spec/array_spec.h"
-#include "rtl_model/spec/topology.h"
-
-#include <array>
+#include "rtl_model/spec/memory_map.h"
 
 namespace hopmesh::spec {
 
@@ -58,35 +54,53 @@ inline std::uint32_t format_word(const NumberFormat& f) {
          static_cast<std::uint32_t>(f.rounding) << 16 | static_cast<std::uint32_t>(f.overflow) << 24;
 }
 
+/// How many codes share a word of each window that could pack them.
+inline std::uint32_t packing_word(const MemoryMap& map) {
+  const auto codes = [&map](Window w) { return static_cast<std::uint32_t>(map[w].codes_a_word); };
+  return codes(Window::BIAS) << HM_SHIFT_CAP_PACKING_BIAS |
+         codes(Window::OUTPUT) << HM_SHIFT_CAP_PACKING_OUTPUT |
+         codes(Window::WEIGHT) << HM_SHIFT_CAP_PACKING_WEIGHT |
+         codes(Window::MOMENTUM) << HM_SHIFT_CAP_PACKING_MOMENTUM;
+}
+
 struct RegisterWord {
   std::uint32_t offset, word;
 };
 
 /// Every capability register of an array built for a topology; `phases`: of a sweep.
-inline std::array<RegisterWord, 20> capability_words(const ArraySpec& a, const Topology& t,
-                                                     std::size_t phases) {
+inline std::vector<RegisterWord> capability_words(const ArraySpec& a, const Topology& t, std::size_t phases) {
   const auto word = [](auto value) { return static_cast<std::uint32_t>(value); };
+  const MemoryMap map = memory_map(a, t);
   const Formats f = built_formats(a, t.most_taps());
-  return {{{HM_REG_CAP_CELLS, word(t.cells())},
-           {HM_REG_CAP_NEURONS_PER_CELL, word(t.neurons_per_cell)},
-           {HM_REG_CAP_LINK_WORDS, word(t.link_to.size())},
-           {HM_REG_CAP_WEIGHT_WORDS, word(t.weight_words())},
-           {HM_REG_CAP_PHASES, word(phases)},
-           {HM_REG_CAP_SCHEDULE, word(a.schedule)},
-           {HM_REG_CAP_NORMALISER, word(a.normaliser)},
-           {HM_REG_CAP_RECIPROCAL_BITS, word(a.reciprocal_bits)},
-           {HM_REG_CAP_LANES, word(a.lanes)},
-           {HM_REG_CAP_BUS_BITS, word(a.bus_bits)},
-           {HM_REG_CAP_FORMAT_WEIGHT, format_word(f.weight)},
-           {HM_REG_CAP_FORMAT_BIAS, format_word(f.bias)},
-           {HM_REG_CAP_FORMAT_DRIVE, format_word(f.drive)},
-           {HM_REG_CAP_FORMAT_STATE, format_word(f.state)},
-           {HM_REG_CAP_FORMAT_LINK, format_word(f.link)},
-           {HM_REG_CAP_FORMAT_ACCUMULATOR, format_word(f.accumulator)},
-           {HM_REG_CAP_OUTPUT, word(a.output)},
-           {HM_REG_CAP_ELEMENTS, word(a.elements)},
-           {HM_REG_CAP_STAGES, word(a.stages)},
-           {HM_REG_CAP_PIPELINE, word(a.pipeline)}}};
+  return {{HM_REG_CAP_CELLS, word(t.cells())},
+          {HM_REG_CAP_NEURONS_PER_CELL, word(t.neurons_per_cell)},
+          {HM_REG_CAP_LINK_WORDS, word(t.link_to.size())},
+          {HM_REG_CAP_WEIGHT_WORDS, word(map[Window::WEIGHT].words())},
+          {HM_REG_CAP_PHASES, word(phases)},
+          {HM_REG_CAP_SCHEDULE, word(a.schedule)},
+          {HM_REG_CAP_NORMALISER, word(a.normaliser)},
+          {HM_REG_CAP_RECIPROCAL_BITS, word(a.reciprocal_bits)},
+          {HM_REG_CAP_LANES, word(a.lanes)},
+          {HM_REG_CAP_BUS_BITS, word(a.bus_bits)},
+          {HM_REG_CAP_FORMAT_WEIGHT, format_word(f.weight)},
+          {HM_REG_CAP_FORMAT_BIAS, format_word(f.bias)},
+          {HM_REG_CAP_FORMAT_DRIVE, format_word(f.drive)},
+          {HM_REG_CAP_FORMAT_STATE, format_word(f.state)},
+          {HM_REG_CAP_FORMAT_LINK, format_word(f.link)},
+          {HM_REG_CAP_FORMAT_ACCUMULATOR, format_word(f.accumulator)},
+          {HM_REG_CAP_OUTPUT, word(a.output)},
+          {HM_REG_CAP_ELEMENTS, word(a.elements)},
+          {HM_REG_CAP_STAGES, word(a.stages)},
+          {HM_REG_CAP_PIPELINE, word(a.pipeline)},
+          {HM_REG_CAP_PACKING, packing_word(map)},
+          {HM_REG_CAP_MOMENTUM_WORDS, word(map[Window::MOMENTUM].words())},
+          {HM_REG_CAP_SPAN, word(map.span)},
+          {HM_REG_CAP_WINDOW_FIRST_LINK, word(map[Window::FIRST_LINK].offset)},
+          {HM_REG_CAP_WINDOW_LINK, word(map[Window::LINK].offset)},
+          {HM_REG_CAP_WINDOW_BIAS, word(map[Window::BIAS].offset)},
+          {HM_REG_CAP_WINDOW_OUTPUT, word(map[Window::OUTPUT].offset)},
+          {HM_REG_CAP_WINDOW_WEIGHT, word(map[Window::WEIGHT].offset)},
+          {HM_REG_CAP_WINDOW_MOMENTUM, word(map[Window::MOMENTUM].offset)}};
 }
 
 } // namespace hopmesh::spec

@@ -75,6 +75,17 @@ inline int next_segment(const CycleModel& m, int segment, bool over) {
   return next < phases_end ? next : +Segment::check;
 }
 
+/// A RESET empties a line of every memory each cycle, so it takes as long as the deepest memory has lines. A
+/// row has a line for each group of its lanes. Of a folded array, the first element has the most rows, and
+/// the longest of each round; links and states have a line a neuron.
+inline std::uint64_t reset_cycles(const ArraySpec& a, const Topology& t) {
+  if (!is_folded(a)) return std::max<std::uint64_t>(1, accumulate_cycles(a, t.most_taps()));
+  std::uint64_t lines = 0;
+  for (const Rounds& rounds : fold_of(a, t, phases_of(t, a.schedule)).rounds)
+    for (const Round& round : rounds) lines += round.accumulate;
+  return std::max<std::uint64_t>(lines, t.neurons());
+}
+
 /// Cycles that a transfer of `words` 32-bit words holds the bus: one for the address, then the data beats.
 inline std::uint64_t bus_cycles(const ArraySpec& a, std::uint64_t words) {
   return 1 + (words * 32 + a.bus_bits - 1) / a.bus_bits;

@@ -31,10 +31,11 @@ struct Accumulator {
 };
 
 /// Where the value of a key stands. (What an array is called is no fact of the hardware.)
-using Place = std::variant<int*, double*, Choice, NumberFormat*, Accumulator>;
+using Place = std::variant<bool*, int*, double*, Choice, NumberFormat*, Accumulator>;
 
 /// The value that stands there, as one word.
 struct ValueText {
+  std::string operator()(const bool* flag) const { return *flag ? "true" : "false"; }
   std::string operator()(const int* x) const { return std::to_string(*x); }
   std::string operator()(const double* x) const { return std::to_string(*x); }
   std::string operator()(const Choice& choice) const { return std::string(choice.name()); }

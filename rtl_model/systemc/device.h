@@ -3,6 +3,7 @@
 // (docs/hardware/registers.md, tests/example/).
 #pragma once
 
+#include "rtl_model/spec/memory_map.h"
 #include "rtl_model/systemc/neuron_array.h"
 #include "rtl_model/systemc/register_file.h"
 
@@ -11,13 +12,15 @@
 
 namespace hopmesh::systemc {
 
-/// Loosely timed: b_transport acts at once, adds the transfer's cycles to the delay and never waits.
-/// A bad transfer is answered by a TLM response, and changes nothing:
+/// Loosely timed: b_transport acts at once, adds the transfer's cycles to the delay and never waits. So
+/// registers show the instant of the call: a host that wants them to the cycle has waited its delays out.
+/// A bad transfer is answered by a TLM response, holds the bus for two cycles and changes nothing else:
 ///   address outside every register and window, or not a multiple of 4    TLM_ADDRESS_ERROR_RESPONSE
 ///   length not a multiple of 4, or over one register, or streaming       TLM_BURST_ERROR_RESPONSE
 ///   byte enables                                                         TLM_BYTE_ENABLE_ERROR_RESPONSE
-///   a write to what is read only, to a window while busy; other commands TLM_COMMAND_ERROR_RESPONSE
-/// transport_dbg moves the same words in no time, busy or not, and starts nothing; what is read only stays.
+///   a write to what is read only; a window while busy; other commands    TLM_COMMAND_ERROR_RESPONSE
+/// transport_dbg moves the same words in no time, busy or not, starts and latches nothing; what is read only
+/// stays. A RESET empties the memories at once for it, and is busy as long as hardware would be.
 class Device : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Device);
@@ -35,14 +38,15 @@ class Device : public sc_core::sc_module {
 
   /// Walks these cycles (counted over all runs) clock by clock instead of phase by phase.
   void walk(CycleWindow window) { cells.sequencer.walk(window); }
+  /// A run or a RESET is at work, as STATUS tells.
+  bool busy() const;
   void wake(Waking waking) { walk(CycleWindow{0, waking == Waking::by_clock ? UINT64_MAX : 0}); }
 
  private:
   struct Window {
-    std::uint64_t words = 0;
-    bool writable = false;
-    std::uint32_t (Device::*get)(std::uint64_t index) const = nullptr;
-    void (Device::*put)(std::uint64_t index, std::uint32_t word) = nullptr;
+    spec::MemoryWindow at;
+    std::uint32_t (Device::*get)(std::uint64_t code) const = nullptr;
+    void (Device::*put)(std::uint64_t code, std::uint32_t word) = nullptr; ///< none: read only
   };
   /// Where an address leads: a register, or a place in a window.
   struct Place {
@@ -60,13 +64,18 @@ class Device : public sc_core::sc_module {
   std::uint32_t read_register(std::uint32_t offset) const;
   void write_register(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay);
   void store(std::uint32_t offset, std::uint32_t word, const sc_core::sc_time& delay);
+  void latch(std::uint32_t offset);
   void control(std::uint32_t word, const sc_core::sc_time& delay);
-  bool busy() const;
+  void raise(std::uint32_t causes, const sc_core::sc_time& delay);
   void start_run(const sc_core::sc_time& delay);
-  void reset_array();
+  sc_core::sc_time reset_array(const sc_core::sc_time& delay);
   void set_windows();
   void on_run_done();
+  void on_reset_done();
   void drive_irq();
+
+  std::uint32_t get_word(const Window& window, std::uint64_t index) const;
+  void put_word(const Window& window, std::uint64_t index, std::uint32_t word);
 
   std::uint32_t get_first_link(std::uint64_t k) const;
   std::uint32_t get_link(std::uint64_t k) const;
@@ -80,9 +89,10 @@ class Device : public sc_core::sc_module {
   std::pair<std::size_t, std::size_t> weight_place(std::uint64_t k) const;
 
   RegisterFile registers_;
-  std::map<std::uint32_t, Window> windows_; ///< by base address
-  std::uint64_t bus_cycles_ = 0;
-  sc_core::sc_event irq_changed_;
+  std::array<Window, spec::window_count> windows_; ///< by spec::Window
+  std::uint64_t bus_cycles_ = 0, run_cycles_ = 0;  ///< run_cycles_: of the last run
+  bool resetting_ = false;
+  sc_core::sc_event irq_changed_, reset_done_;
 };
 
 } // namespace hopmesh::systemc

@@ -19,7 +19,10 @@ class RegisterFile {
   bool writable(std::uint32_t offset) const { return registers_.at(offset).access != Access::RO; }
   /// As the bus sees it: write-only registers read as zero.
   std::uint32_t read(std::uint32_t offset) const;
-  /// As the bus does it: RW stores, W1C clears. WO and RO store nothing (the device acts on WO by itself).
+  /// Which bits of the register belong to a field.
+  std::uint32_t fields(std::uint32_t offset) const { return registers_.at(offset).fields; }
+  /// As the bus does it: RW stores the bits of its fields, W1C clears. WO and RO store nothing (the device
+  /// acts on WO by itself).
   void write(std::uint32_t offset, std::uint32_t word);
   /// As the hardware behind it does: stores in any register.
   void set(std::uint32_t offset, std::uint32_t word) { registers_.at(offset).value = word; }
@@ -29,7 +32,7 @@ class RegisterFile {
  private:
   struct Register {
     Access access;
-    std::uint32_t reset, value;
+    std::uint32_t reset, value, fields;
   };
   std::map<std::uint32_t, Register> registers_;
 };

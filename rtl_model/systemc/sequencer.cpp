@@ -27,17 +27,20 @@ void Sequencer::begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_
   threshold_ = threshold;
   max_sweeps_ = std::max<std::uint64_t>(max_sweeps, 1);
   busy_ = true;
-  converged_ = false;
+  converged_ = aborted_ = false;
   sweeps_ = run_cycles_ = 0;
   at_ = Segment::idle;
-  const sc_time asked = sc_core::sc_time_stamp() + delay;
-  const sc_time late = asked % period_;
-  segment_end_.notify(late == sc_core::SC_ZERO_TIME ? delay : delay + period_ - late);
+  segment_end_.notify(until_edge(delay));
+}
+
+sc_time Sequencer::until_edge(sc_time delay) const {
+  const sc_time late = (sc_core::sc_time_stamp() + delay) % period_;
+  return late == sc_core::SC_ZERO_TIME ? delay : delay + period_ - late;
 }
 
 // Of the run: does it end with the check at hand?
 bool Sequencer::over() const {
-  return converged_ || sweeps_ == max_sweeps_;
+  return converged_ || aborted_ || sweeps_ == max_sweeps_;
 }
 
 bool Sequencer::walks(std::uint64_t cycles) const {

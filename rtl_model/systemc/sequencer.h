@@ -42,6 +42,11 @@ class Sequencer : public sc_core::sc_module {
   /// Begins a run on the first clock edge not before now + delay. Only when idle.
   void begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_core::sc_time delay);
   bool busy() const { return busy_; }
+  /// Lets the run at hand end with its next check.
+  void abort() { aborted_ = true; }
+  bool aborted() const { return aborted_; } ///< the last run, or the one at hand
+  /// A delay from now on, lengthened to the next clock edge.
+  sc_core::sc_time until_edge(sc_core::sc_time delay) const;
 
   /// Which cycles to walk clock by clock; takes effect at the next segment.
   void walk(CycleWindow window) { walked_ = window; }
@@ -78,7 +83,7 @@ class Sequencer : public sc_core::sc_module {
   int at_ =
       spec::Segment::idle; ///< the segment that runs now; segment_ shows it while clocks run, running_ always
   std::uint64_t beats_left_ = 0;
-  bool busy_ = false, converged_ = false, clocked_ = false;
+  bool busy_ = false, converged_ = false, aborted_ = false, clocked_ = false;
   std::uint64_t threshold_ = 0, max_sweeps_ = 1, sweeps_ = 0, run_cycles_ = 0, total_cycles_ = 0;
 };
 

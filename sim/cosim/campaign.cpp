@@ -46,6 +46,7 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
     array = presets[dice.below(presets.size())];
     array.schedule = dice.mode<spec::Schedule>(spec::schedule_names);
     array.lanes = static_cast<int>(dice.between(1, 6));
+    array.packing = dice.one_in(2);
     if (dice.one_in(4)) array.output = spec::Output::binary;
   }
   if (!preset || spec::validate(array, topology.most_taps()))

@@ -152,6 +152,7 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps) {
     a.reciprocal_bits =
         static_cast<int>(dice.between(spec::least_reciprocal_bits, spec::most_reciprocal_bits));
     a.bus_bits = spec::bus_widths[dice.below(spec::bus_widths.size())];
+    a.packing = dice.one_in(2);
     a.exact_accumulator = dice.one_in(2);
     for (const spec::SignalClass& signal : spec::signal_classes)
       if (signal.format != &spec::Formats::accumulator) {

@@ -65,6 +65,7 @@ struct Plain {
     return !overflow && std::exchange(value, plain) != plain;
   }
 
+  bool operator()(bool* at) const { return change(*at, plainest != 0); }
   bool operator()(int* at) const { return change(*at, plainest); }
   bool operator()(const spec::Choice& choice) const {
     return change(*choice.at, static_cast<std::uint8_t>(plainest));

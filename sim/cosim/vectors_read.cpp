@@ -122,6 +122,13 @@ struct KeyLine {
     *choice.at = static_cast<std::uint8_t>(at - names.begin());
   }
 
+  void operator()(bool* at) const {
+    const std::string shape = key + " true or " + key + " false";
+    const auto w = words(shape);
+    if (w.size() != 1 || (w[0] != "true" && w[0] != "false")) fail(shape);
+    *at = w[0] == "true";
+  }
+
   void operator()(int* at) const {
     const std::string shape = key + " N";
     const auto w = words(shape);

@@ -78,9 +78,11 @@ void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps) {
   sweeper_.prepare();
 }
 
-bool Engine::advance(const std::atomic<bool>& stop) {
+bool Engine::advance(const std::atomic<bool>& stop, std::uint32_t most) {
+  const std::uint32_t end = std::min(max_sweeps_, most);
+  if (result_.sweeps >= end) return result_.converged || result_.sweeps == max_sweeps_;
   SweepResult swept;
-  result_.sweeps += sweeper_.relax(threshold_, max_sweeps_ - result_.sweeps, stop, swept);
+  result_.sweeps += sweeper_.relax(threshold_, end - result_.sweeps, stop, swept);
   extremes_.merge(swept.extremes);
   result_.largest_change = static_cast<std::uint32_t>(swept.largest_change);
   result_.converged = swept.largest_change <= threshold_;

@@ -37,10 +37,10 @@ class Engine {
   void read_biases(std::size_t first, std::uint32_t* words, std::size_t count) const;
   void read_outputs(std::size_t first, std::uint32_t* words, std::size_t count) const;
 
-  /// Prepares a run; `advance` then goes on until it is over, or until `stop` says so between two sweeps:
-  /// true when over. A run that was stopped goes on where it was.
+  /// Prepares a run; `advance` then goes on until it is over, until it has had `most` sweeps, or until `stop`
+  /// says so between two sweeps: true when over. A run that was stopped goes on where it was.
   void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps);
-  bool advance(const std::atomic<bool>& stop);
+  bool advance(const std::atomic<bool>& stop, std::uint32_t most = UINT32_MAX);
   /// begin_run and advance in one call, without a stop.
   spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps);
   const spec::Relaxation& result() const { return result_; }

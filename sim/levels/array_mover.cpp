@@ -55,7 +55,7 @@ hm_step_parameters step_parameters(const scene::Scene& scene) {
 
 ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                        ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port, array), motion_(step_parameters(scene)),
+    : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), motion_(step_parameters(scene)),
       memory_(mesh, motion_.formulation->looks_back), buffer_(4096) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
@@ -63,12 +63,13 @@ ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const s
 
 // The array is looked at with the first step, when every port of the process has been made.
 void ArrayMover::open() {
-  check(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
-                       static_cast<std::uint32_t>(buffer_.size())));
+  check_opened(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
+                              static_cast<std::uint32_t>(buffer_.size())),
+               driver_);
 }
 
 StepRow ArrayMover::advance() {
-  if (!driver_.bus) open();
+  if (!driver_.line.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.now.output;
   if (image_) motion_.node_force = image_->at(memory_.now.position).data();

@@ -19,39 +19,59 @@ std::uint32_t BusArray::read(std::uint32_t address) const {
   return word;
 }
 
+// The low word first: reading it keeps the high one that belongs to it.
 std::uint64_t BusArray::read_wide(std::uint32_t low) const {
-  const std::uint64_t high = read(low + 4);
-  return high << 32 | read(low);
+  const std::uint64_t word = read(low);
+  return word | static_cast<std::uint64_t>(read(low + 4)) << 32;
 }
 
 void BusArray::write(std::uint32_t address, std::uint32_t word) const {
   check(bus_.write(bus_.context, address, word));
 }
 
-Codes BusArray::read_window(std::uint32_t base, std::size_t count) const {
+BusArray::Window BusArray::weight_window() const {
+  const std::uint32_t packing = read(HM_REG_CAP_PACKING);
+  return {read(HM_REG_CAP_WINDOW_WEIGHT), static_cast<int>(HM_FIELD(packing, CAP_PACKING_WEIGHT))};
+}
+
+BusArray::Window BusArray::bias_window() const {
+  const std::uint32_t packing = read(HM_REG_CAP_PACKING);
+  return {read(HM_REG_CAP_WINDOW_BIAS), static_cast<int>(HM_FIELD(packing, CAP_PACKING_BIAS))};
+}
+
+BusArray::Window BusArray::output_window() const {
+  const std::uint32_t packing = read(HM_REG_CAP_PACKING);
+  return {read(HM_REG_CAP_WINDOW_OUTPUT), static_cast<int>(HM_FIELD(packing, CAP_PACKING_OUTPUT))};
+}
+
+Codes BusArray::read_window(const Window& window, std::size_t count) const {
+  const auto n = static_cast<std::size_t>(window.codes_a_word);
+  std::vector<std::uint32_t> words((count + n - 1) / n);
+  for (std::size_t done = 0; done < words.size(); done += burst_words)
+    check(bus_.read_burst(bus_.context, window.base + static_cast<std::uint32_t>(4 * done),
+                          words.data() + done,
+                          static_cast<std::uint32_t>(std::min(burst_words, words.size() - done))));
   Codes codes(count);
-  for (std::size_t done = 0; done < count; done += burst_words)
-    check(bus_.read_burst(bus_.context, base + static_cast<std::uint32_t>(4 * done),
-                          reinterpret_cast<std::uint32_t*>(codes.data() + done),
-                          static_cast<std::uint32_t>(std::min(burst_words, count - done))));
+  for (std::size_t k = 0; k < count; ++k) codes[k] = code_in(words.data(), window.codes_a_word, k);
   return codes;
 }
 
-void BusArray::write_window(std::uint32_t base, const Codes& codes) const {
-  for (std::size_t done = 0; done < codes.size(); done += burst_words)
-    check(bus_.write_burst(bus_.context, base + static_cast<std::uint32_t>(4 * done),
-                           reinterpret_cast<const std::uint32_t*>(codes.data() + done),
-                           static_cast<std::uint32_t>(std::min(burst_words, codes.size() - done))));
+void BusArray::write_window(const Window& window, const Codes& codes) const {
+  const std::vector<std::uint32_t> words = packed(codes, window.codes_a_word);
+  for (std::size_t done = 0; done < words.size(); done += burst_words)
+    check(bus_.write_burst(bus_.context, window.base + static_cast<std::uint32_t>(4 * done),
+                           words.data() + done,
+                           static_cast<std::uint32_t>(std::min(burst_words, words.size() - done))));
 }
 
 void BusArray::load(const Codes& weights, const Codes& biases, const Codes& outputs) const {
-  write_window(HM_WINDOW_WEIGHT, weights);
-  write_window(HM_WINDOW_BIAS, biases);
+  write_window(weight_window(), weights);
+  write_window(bias_window(), biases);
   put_outputs(outputs);
 }
 
 void BusArray::put_outputs(const Codes& codes) const {
-  write_window(HM_WINDOW_OUTPUT, codes);
+  write_window(output_window(), codes);
 }
 
 spec::Relaxation BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps) const {
@@ -79,7 +99,10 @@ std::uint32_t BusArray::max_sweeps() const {
 
 std::vector<std::uint32_t> BusArray::capabilities() const {
   std::vector<std::uint32_t> words;
-  for (std::uint32_t at = HM_REG_CAP_CELLS; at <= HM_REG_CAP_OUTPUT; at += 4) words.push_back(read(at));
+#define HM_X(name, offset, access, reset, meaning)                                                           \
+  if ((offset) >= HM_REG_CAP_CELLS && (offset) < HM_REG_CONTROL) words.push_back(read(offset));
+  HM_REGISTERS(HM_X)
+#undef HM_X
   return words;
 }
 
@@ -88,15 +111,15 @@ std::uint64_t BusArray::bus_cycles() const {
 }
 
 Codes BusArray::weights() const {
-  return read_window(HM_WINDOW_WEIGHT, topology_.weight_words());
+  return read_window(weight_window(), topology_.weight_words());
 }
 
 Codes BusArray::biases() const {
-  return read_window(HM_WINDOW_BIAS, topology_.neurons());
+  return read_window(bias_window(), topology_.neurons());
 }
 
 Codes BusArray::outputs() const {
-  return read_window(HM_WINDOW_OUTPUT, topology_.neurons());
+  return read_window(output_window(), topology_.neurons());
 }
 
 } // namespace hopmesh::levels

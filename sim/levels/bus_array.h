@@ -36,8 +36,16 @@ class BusArray {
   /// A register of two words; `low` is the address of the lower one.
   std::uint64_t read_wide(std::uint32_t low) const;
   void write(std::uint32_t address, std::uint32_t word) const;
-  Codes read_window(std::uint32_t base, std::size_t count) const;
-  void write_window(std::uint32_t base, const Codes& codes) const;
+  /// A window, as the capability registers tell it.
+  struct Window {
+    std::uint32_t base;
+    int codes_a_word;
+  };
+  Window weight_window() const;
+  Window bias_window() const;
+  Window output_window() const;
+  Codes read_window(const Window& window, std::size_t codes) const;
+  void write_window(const Window& window, const Codes& codes) const;
 
   const hm_bus& bus_;
   const spec::Topology& topology_;

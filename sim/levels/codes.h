@@ -29,4 +29,23 @@ inline Codes to_codes(const std::vector<double>& values, const hm_format& format
   return codes;
 }
 
+/// Code k of words that hold `codes_a_word` codes each, sign extended.
+inline std::int32_t code_in(const std::uint32_t* words, int codes_a_word, std::size_t k) {
+  const auto n = static_cast<std::size_t>(codes_a_word);
+  const int bits = 32 / codes_a_word, above = 32 - bits * static_cast<int>(k % n + 1);
+  return static_cast<std::int32_t>(words[k / n] << above) >> (32 - bits);
+}
+
+/// Words that hold the codes, `codes_a_word` each.
+inline std::vector<std::uint32_t> packed(const Codes& codes, int codes_a_word) {
+  const auto n = static_cast<std::size_t>(codes_a_word);
+  if (n == 1) return {codes.begin(), codes.end()};
+  const int bits = 32 / codes_a_word;
+  std::vector<std::uint32_t> words((codes.size() + n - 1) / n, 0);
+  for (std::size_t k = 0; k < codes.size(); ++k)
+    words[k / n] |= (static_cast<std::uint32_t>(codes[k]) & ((1u << bits) - 1))
+                    << bits * static_cast<int>(k % n);
+  return words;
+}
+
 } // namespace hopmesh::levels

@@ -15,9 +15,7 @@ class EnginePort : public ArrayPort {
 
   const engine::Engine& engine() const { return device_.engine(); }
 
-  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override {
-    return device_.read(address, words, count);
-  }
+  int read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) override;
   int write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) override;
   int wait_for_irq() override;
   void begin_step(std::uint64_t step) override;
@@ -27,7 +25,8 @@ class EnginePort : public ArrayPort {
   std::string trouble() const override { return wave_ ? wave_->trouble() : ""; }
 
  private:
-  int waved_run();
+  /// What the wave has to know once the device has answered; `was_running` before that.
+  void show(bool was_running);
 
   engine::Device device_;
   const std::atomic<bool>& stop_;

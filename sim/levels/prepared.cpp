@@ -27,7 +27,7 @@ Prepared prepare(const std::string& scene, const std::string& array,
   p.mesh = std::make_unique<BuiltMesh>(p.inputs.scene);
   for (const std::string& note : p.mesh->mesh().notes) p.inputs.notes.push_back(note);
   if (p.inputs.scene.force.image) tell_of_picture(p.inputs.scene, p.inputs.notes);
-  if (const auto fault = spec::validate(p.inputs.array, p.mesh->topology().most_taps()))
+  if (const auto fault = spec::validate_on(p.inputs.array, p.mesh->topology()))
     throw input::input_error(array, 0, fault->key, fault->found, fault->expected);
   tell_of_fold(p.inputs.array, p.mesh->topology(), p.inputs.notes);
   return p;

@@ -27,6 +27,7 @@ SystemcPort::SystemcPort(sc_core::sc_module_name name, const spec::ArraySpec& ar
 int SystemcPort::transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words,
                           std::uint32_t count) {
   if (sc_core::sc_get_status() < sc_core::SC_START_OF_SIMULATION) sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  if (device_.busy()) pass_delay();
   tlm::tlm_generic_payload payload;
   payload.set_command(command);
   payload.set_address(address);
@@ -37,16 +38,23 @@ int SystemcPort::transfer(tlm::tlm_command command, std::uint32_t address, std::
   return payload.is_response_ok() ? HM_OK : HM_ERROR_BUS;
 }
 
+// Until the last transfer is over, and all that happens in that instant is done: a step to an instant alone
+// leaves its processes for the next one.
+void SystemcPort::pass_delay() {
+  if (delay_ != sc_core::SC_ZERO_TIME) sc_core::sc_start(delay_);
+  delay_ = sc_core::SC_ZERO_TIME;
+  while (sc_core::sc_pending_activity_at_current_time()) sc_core::sc_start(sc_core::SC_ZERO_TIME);
+}
+
 // In slices, so that a long relaxation can be stopped and a wave be opened in the middle of it.
 int SystemcPort::wait_for_irq() {
   const sc_time period = device_.cells.period(), late = (sc_core::sc_time_stamp() + delay_) % period;
   const sc_time began =
       sc_core::sc_time_stamp() + delay_ + (late == sc_core::SC_ZERO_TIME ? late : period - late);
   const std::uint64_t cycles_before = device_.cells.sequencer.total_cycles();
-  sc_core::sc_start(delay_); // until the last transfer is over and the line shows what it did
-  delay_ = sc_core::SC_ZERO_TIME;
+  pass_delay(); // the line shows what the last transfer did
   while (!irq_.read()) {
-    if (stop_) return HM_ERROR_STOPPED;
+    if (stop_ || !device_.busy()) return HM_ERROR_STOPPED; // nothing will raise the line
     if (wave_) wave_->close_when_disk_full();
     bool wave_changes = false;
     sc_core::sc_start(next_slice(began, cycles_before, wave_changes));

@@ -11,7 +11,8 @@
 namespace hopmesh::levels {
 
 /// Owns a device and the host's side of its bus. Time passes while the firmware waits; transfers before that
-/// add up in a local delay (loosely timed), so START takes effect when the bus would have delivered it.
+/// add up in a local delay (loosely timed), so START takes effect when the bus would have delivered it. While
+/// the device is at work each transfer waits out those before it, and sees the cycle in which it begins.
 class SystemcPort : public sc_core::sc_module, public ArrayPort {
  public:
   SC_HAS_PROCESS(SystemcPort);
@@ -32,6 +33,7 @@ class SystemcPort : public sc_core::sc_module, public ArrayPort {
 
  private:
   int transfer(tlm::tlm_command command, std::uint32_t address, std::uint32_t* words, std::uint32_t count);
+  void pass_delay();
   sc_core::sc_time next_slice(sc_core::sc_time began, std::uint64_t cycles_before, bool& wave_changes) const;
   void on_irq();
 

@@ -34,7 +34,7 @@ SolveTask task_of_problem(const NetworkFiles& files, std::int64_t seed) {
 }
 
 void check_array(const spec::ArraySpec& array, const spec::Topology& topology, const std::string& file) {
-  if (const auto fault = spec::validate(array, topology.most_taps()))
+  if (const auto fault = spec::validate_on(array, topology))
     throw input::input_error(file, 0, fault->key, fault->found, fault->expected);
 }
 

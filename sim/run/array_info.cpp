@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/cycles.h"
+#include "rtl_model/spec/memory_map.h"
 #include "sim/input/count_text.h"
 
 #include <algorithm>
@@ -106,15 +107,36 @@ std::string phase_text(const spec::ArraySpec& array, const spec::Topology& t, co
 FigureTable cycles(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, const spec::Phases& phases) {
   const spec::Topology& t = mesh.topology();
   const spec::CycleModel m = spec::cycle_model(array, t, phases);
-  const std::uint64_t load =
-      spec::bus_cycles(array, t.weight_words()) + 2 * spec::bus_cycles(array, t.neurons());
+  const spec::MemoryMap map = spec::memory_map(array, t);
+  std::uint64_t load = 0;
+  for (const spec::Window w : {spec::Window::WEIGHT, spec::Window::BIAS, spec::Window::OUTPUT})
+    load += spec::bus_cycles(array, map[w].words());
   return {"Cycles",
           {{"longest phase", phase_text(array, t, phases, m)},
            {"sweep", grouped(m.sweep)},
            {"prepare, once a run", grouped(m.prepare)},
            {"run of n sweeps", fmt::format("{} + {} n", grouped(1 + m.prepare), grouped(m.sweep))},
            {"time of a sweep", fmt::format("{:.3g} us", static_cast<double>(m.sweep) / array.clock_mhz)},
-           {"load weights, bias, start", grouped(load) + " on the bus"}}};
+           {"load weights, bias, start", grouped(load) + " on the bus"},
+           {"RESET", grouped(spec::reset_cycles(array, t))}}};
+}
+
+/// A window's words, and why they hold one code each where they could hold more.
+std::string window_text(const spec::ArraySpec& array, const spec::MemoryWindow& window, int code_bits) {
+  std::string text = fmt::format("{} words at {:#x}", grouped(window.words()), window.offset);
+  if (window.codes_a_word > 1) return text + fmt::format(", {} codes each", window.codes_a_word);
+  if (array.packing) text += fmt::format(", one code each: {} bits are more than half a word", code_bits);
+  return text;
+}
+
+FigureTable bus(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
+  const spec::MemoryMap map = spec::memory_map(array, mesh.topology());
+  const spec::Formats& f = array.formats;
+  return {"Bus",
+          {{"registers and windows", fmt::format("{} KiB", grouped(map.span / 1024))},
+           {"window WEIGHT", window_text(array, map[spec::Window::WEIGHT], f.weight.width)},
+           {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
+           {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
 }
 
 FigureTable memory(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
@@ -231,8 +253,8 @@ std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySp
 std::vector<FigureTable> array_info(const scene::Scene& scene, const levels::BuiltMesh& mesh,
                                     const spec::ArraySpec& array) {
   const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);
-  return {motion(scene),       shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases),
-          memory(mesh, array), left_out(scene, mesh)};
+  return {motion(scene),    shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases),
+          bus(mesh, array), memory(mesh, array),        left_out(scene, mesh)};
 }
 
 std::string text_of(const std::vector<FigureTable>& tables) {

@@ -79,7 +79,7 @@ void check_times(const Study& study, const scene::MotionKeys& motion) {
 
 void check_point(const Study& study, const Point& point, const scene::Inputs& inputs) {
   const levels::BuiltMesh mesh(inputs.scene);
-  if (const auto fault = spec::validate(inputs.array, mesh.topology().most_taps()))
+  if (const auto fault = spec::validate_on(inputs.array, mesh.topology()))
     throw placed(study, point.number,
                  input::input_error("--set", 0, fault->key, fault->found, fault->expected).what());
   check_times(study, inputs.scene.motion);

@@ -51,7 +51,7 @@ void run_production(benchmark::State& state, Arrays& a) {
   a.network.load(a.production);
   for (auto _ : state) {
     state.PauseTiming();
-    a.production.write(HM_WINDOW_OUTPUT, a.network.start);
+    a.production.put_codes(tests::Window::OUTPUT, a.network.start);
     state.ResumeTiming();
     FlagNetwork::run(a.production);
   }

@@ -13,8 +13,8 @@ constexpr int warm_up_steps = 20; ///< after these the flag moves and its networ
 void FlagNetwork::find(tests::Dut& production, const spec::Topology& topology, FlagSteps& steps) {
   steps.begin();
   for (int k = 0; k < warm_up_steps; ++k) steps.advance();
-  weights = production.read(HM_WINDOW_WEIGHT, topology.weight_words());
-  biases = production.read(HM_WINDOW_BIAS, topology.neurons());
+  weights = production.codes(tests::Window::WEIGHT, topology.weight_words());
+  biases = production.codes(tests::Window::BIAS, topology.neurons());
   start = steps.start_raw();
   load(production);
   run(production);
@@ -22,9 +22,9 @@ void FlagNetwork::find(tests::Dut& production, const spec::Topology& topology, F
 }
 
 void FlagNetwork::load(tests::Dut& production) const {
-  production.write(HM_WINDOW_WEIGHT, weights);
-  production.write(HM_WINDOW_BIAS, biases);
-  production.write(HM_WINDOW_OUTPUT, start);
+  production.put_codes(tests::Window::WEIGHT, weights);
+  production.put_codes(tests::Window::BIAS, biases);
+  production.put_codes(tests::Window::OUTPUT, start);
 }
 
 void FlagNetwork::run(tests::Dut& production) {
@@ -33,7 +33,7 @@ void FlagNetwork::run(tests::Dut& production) {
 }
 
 Outcome FlagNetwork::outcome_of_production(tests::Dut& production) const {
-  return {production.read(HM_WINDOW_OUTPUT, biases.size()), production.read(HM_REG_SWEEPS),
+  return {production.codes(tests::Window::OUTPUT, biases.size()), production.read(HM_REG_SWEEPS),
           production.read(HM_REG_CYCLES_LO), production.read(HM_REG_LARGEST_CHANGE)};
 }
 

@@ -8,17 +8,18 @@
 namespace hopmesh::bench {
 
 NullArray::NullArray(const spec::ArraySpec& array, const spec::Topology& topology)
-    : topology_(topology), weight_(topology.weight_words()), bias_(topology.neurons()),
-      output_(topology.neurons()), registers_{{HM_REG_ID, HM_ID_VALUE},
-                                              {HM_REG_VERSION, HM_VERSION_VALUE},
-                                              {HM_REG_SWEEPS, 1}} {
+    : topology_(topology), map_(spec::memory_map(array, topology)),
+      weight_(map_[spec::Window::WEIGHT].words()), bias_(map_[spec::Window::BIAS].words()),
+      output_(map_[spec::Window::OUTPUT].words()), registers_{{HM_REG_ID, HM_ID_VALUE},
+                                                              {HM_REG_VERSION, HM_VERSION_VALUE},
+                                                              {HM_REG_SWEEPS, 1}} {
   const std::size_t phases = spec::phases_of(topology, array.schedule).size();
   for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
     registers_[offset] = word;
 }
 
 int NullArray::read(std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
-  if (address < HM_WINDOW_FIRST_LINK) {
+  if (address < HM_REGISTER_BYTES) {
     *words = read_register(address);
     return HM_OK;
   }
@@ -28,7 +29,7 @@ int NullArray::read(std::uint32_t address, std::uint32_t* words, std::uint32_t c
 }
 
 int NullArray::write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
-  if (address >= HM_WINDOW_FIRST_LINK) std::memcpy(window(address), words, 4 * std::size_t{count});
+  if (address >= HM_REGISTER_BYTES) std::memcpy(window(address), words, 4 * std::size_t{count});
   return HM_OK;
 }
 
@@ -41,14 +42,15 @@ int NullArray::wait_for_irq() {
 
 // The links are the topology's own; whoever only reads is not told otherwise by the type.
 std::uint32_t* NullArray::window(std::uint32_t address) {
-  const auto in = [address](std::uint32_t base, const std::vector<std::uint32_t>& words) {
-    return const_cast<std::uint32_t*>(words.data()) + (address - base) / 4;
+  using spec::Window;
+  const auto in = [&](Window w, const std::vector<std::uint32_t>& words) {
+    return const_cast<std::uint32_t*>(words.data()) + (address - map_[w].offset) / 4;
   };
-  if (address >= HM_WINDOW_WEIGHT) return in(HM_WINDOW_WEIGHT, weight_);
-  if (address >= HM_WINDOW_OUTPUT) return in(HM_WINDOW_OUTPUT, output_);
-  if (address >= HM_WINDOW_BIAS) return in(HM_WINDOW_BIAS, bias_);
-  if (address >= HM_WINDOW_LINK) return in(HM_WINDOW_LINK, topology_.link_to);
-  return in(HM_WINDOW_FIRST_LINK, topology_.first_link);
+  if (map_[Window::WEIGHT].holds(address)) return in(Window::WEIGHT, weight_);
+  if (map_[Window::OUTPUT].holds(address)) return in(Window::OUTPUT, output_);
+  if (map_[Window::BIAS].holds(address)) return in(Window::BIAS, bias_);
+  if (map_[Window::LINK].holds(address)) return in(Window::LINK, topology_.link_to);
+  return in(Window::FIRST_LINK, topology_.first_link);
 }
 
 // The driver asks for STATUS before it loads, and when the run is over.

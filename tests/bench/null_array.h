@@ -2,6 +2,7 @@
 // with the outputs it was loaded with. What a step takes on it is the host's share alone.
 #pragma once
 
+#include "rtl_model/spec/memory_map.h"
 #include "sim/levels/array_port.h"
 
 #include <chrono>
@@ -37,6 +38,7 @@ class NullArray : public levels::ArrayPort {
   void lap(double& part);
 
   const spec::Topology& topology_;
+  const spec::MemoryMap map_;
   std::vector<std::uint32_t> weight_, bias_, output_;
   std::map<std::uint32_t, std::uint32_t> registers_;
   std::uint32_t outputs_left_ = 0; ///< words of the read-back still to come

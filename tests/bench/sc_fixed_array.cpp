@@ -33,7 +33,7 @@ void expect_array(const spec::ArraySpec& a, std::size_t taps) {
       a.reciprocal_bits != ReciprocalFixed().wl() || exact.width > built.width ||
       exact.fraction_bits() != built.fraction_bits())
     throw std::invalid_argument(
-        "the sc_fixed array is written for an exact accumulator of up to 31 taps, one "
+        "the sc_fixed array is written for an exact accumulator of up to 255 taps, one "
         "lane and a reciprocal of 18 bits");
 }
 

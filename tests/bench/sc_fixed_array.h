@@ -18,7 +18,7 @@ namespace hopmesh::bench {
 /// Formats are compile-time here; ScFixedArray refuses an array that has others.
 using WeightFixed = sc_dt::sc_fixed<16, 1, sc_dt::SC_RND, sc_dt::SC_SAT>;
 using BiasFixed = sc_dt::sc_fixed<24, 9, sc_dt::SC_RND, sc_dt::SC_SAT>;
-using SumFixed = sc_dt::sc_fixed<43, 14, sc_dt::SC_TRN, sc_dt::SC_WRAP>; ///< exact for up to 31 taps
+using SumFixed = sc_dt::sc_fixed<39, 10, sc_dt::SC_TRN, sc_dt::SC_WRAP>; ///< exact for up to 255 taps
 using DriveFixed = sc_dt::sc_fixed<18, 2, sc_dt::SC_RND, sc_dt::SC_SAT>;
 using StateFixed = sc_dt::sc_fixed<24, 2, sc_dt::SC_RND, sc_dt::SC_SAT>;
 using LinkFixed = sc_dt::sc_fixed<16, 2, sc_dt::SC_RND, sc_dt::SC_SAT>;

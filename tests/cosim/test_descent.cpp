@@ -98,7 +98,7 @@ TEST(CosimDescent, EnergyNeverRisesInAnySweep) {
     for (int sweep = 0; sweep < 20; ++sweep) {
       duts[k]->start(0, 1); // one sweep from where the last one ended
       duts[k]->run_until_done();
-      const Wide now = energy(all[k], duts[k]->read(HM_WINDOW_OUTPUT, all[k].topology.neurons()));
+      const Wide now = energy(all[k], duts[k]->codes(Window::OUTPUT, all[k].topology.neurons()));
       ASSERT_TRUE(now <= before) << "sweep " << sweep;
       falls += now < before;
       before = now;
@@ -134,7 +134,7 @@ TEST(CosimDescent, BinaryEnergyFallsWithEveryFlipUntilNothingMoves) {
       ASSERT_LT(sweep, 1000);
       duts[k]->start(0, 1);
       duts[k]->run_until_done();
-      const Codes now = duts[k]->read(HM_WINDOW_OUTPUT, all[k].topology.neurons());
+      const Codes now = duts[k]->codes(Window::OUTPUT, all[k].topology.neurons());
       moved = now != V;
       ASSERT_TRUE(!moved || energy(all[k], now) < energy(all[k], V)) << "sweep " << sweep;
       ASSERT_EQ(duts[k]->read(HM_REG_LARGEST_CHANGE) != 0, moved);
@@ -158,7 +158,7 @@ TEST(CosimDescent, ABinaryNeuronThatHoldsItselfBackFlipsForEverAlone) {
   for (int sweep = 0; sweep < 6; ++sweep) {
     dut.start(0, 1);
     dut.run_until_done();
-    const Codes now = dut.read(HM_WINDOW_OUTPUT, 1);
+    const Codes now = dut.codes(Window::OUTPUT, 1);
     EXPECT_EQ(now[0], sweep % 2 == 0 ? -16384 : 16384);
     EXPECT_EQ(energy(job, now) > energy(job, V), sweep % 2 == 0);
     V = now;
@@ -179,14 +179,14 @@ TEST(CosimDescent, AllAtOnceTwoBinaryNeuronsFlipForEver) {
     flipping.start(0, 1);
     flipping.run_until_done();
     const int V = sweep % 2 == 0 ? -16384 : 16384;
-    EXPECT_EQ(flipping.read(HM_WINDOW_OUTPUT, 2), (Codes{V, V})) << sweep;
+    EXPECT_EQ(flipping.codes(Window::OUTPUT, 2), (Codes{V, V})) << sweep;
     EXPECT_EQ(flipping.read(HM_REG_LARGEST_CHANGE), 32768u);
   }
   resting.start(0, 100);
   resting.run_until_done();
   EXPECT_EQ(resting.read(HM_REG_STATUS), static_cast<std::uint32_t>(HM_STATUS_DONE | HM_STATUS_CONVERGED));
   EXPECT_EQ(resting.read(HM_REG_SWEEPS), 2u);
-  EXPECT_EQ(resting.read(HM_WINDOW_OUTPUT, 2), (Codes{-16384, 16384}));
+  EXPECT_EQ(resting.codes(Window::OUTPUT, 2), (Codes{-16384, 16384}));
 }
 
 /// W = [[0, -1], [-1, 0]], I = 0, V = (1, 1): all at once it flips to (-1, -1) and back for ever; one at a
@@ -204,12 +204,12 @@ TEST(CosimDescent, AllAtOnceTwoNeuronsFlipForEver) {
     flipping.start(0, 1);
     flipping.run_until_done();
     const int V = sweep % 2 == 0 ? -16384 : 16384;
-    EXPECT_EQ(flipping.read(HM_WINDOW_OUTPUT, 4), (Codes{V, 0, V, 0})) << sweep;
+    EXPECT_EQ(flipping.codes(Window::OUTPUT, 4), (Codes{V, 0, V, 0})) << sweep;
   }
   resting.start(0, 100);
   resting.run_until_done();
   EXPECT_EQ(resting.read(HM_REG_STATUS), static_cast<std::uint32_t>(HM_STATUS_DONE | HM_STATUS_CONVERGED));
-  EXPECT_EQ(resting.read(HM_WINDOW_OUTPUT, 4), (Codes{-16384, 0, 16384, 0}));
+  EXPECT_EQ(resting.codes(Window::OUTPUT, 4), (Codes{-16384, 0, 16384, 0}));
 }
 
 } // namespace

@@ -21,7 +21,7 @@ struct NetworkBench {
         dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
 
   void expect_run() {
-    EXPECT_EQ(dut.read(HM_WINDOW_OUTPUT, job.topology.neurons()), expected.output());
+    EXPECT_EQ(dut.codes(Window::OUTPUT, job.topology.neurons()), expected.output());
     EXPECT_EQ(dut.read(HM_REG_SWEEPS), expected.sweeps);
     EXPECT_EQ(dut.read(HM_REG_STATUS),
               static_cast<std::uint32_t>(HM_STATUS_DONE | (expected.converged ? HM_STATUS_CONVERGED : 0)));
@@ -82,7 +82,7 @@ TEST_P(CosimNetworks, AfterEverySweep) {
     for (std::size_t sweep = 0; sweep < bench->expected.history.size(); ++sweep) {
       bench->dut.start(0, 1);
       bench->dut.run_until_done();
-      ASSERT_EQ(bench->dut.read(HM_WINDOW_OUTPUT, bench->job.topology.neurons()),
+      ASSERT_EQ(bench->dut.codes(Window::OUTPUT, bench->job.topology.neurons()),
                 bench->expected.history[sweep])
           << "sweep " << sweep + 1;
     }

@@ -1,9 +1,9 @@
-// The engine's device and the SystemC device behind the same five calls, in lockstep on long random sequences
-// of transfers, good and bad, before, during and after runs: every answer, every word, every register equal,
-// bus cycles included. Time passes in SystemC only where it passes in the engine: while the host waits.
+// The engine's device and the SystemC device behind the same five calls, transfer by transfer: random bus
+// traffic, good and bad, before, during and after runs and resets, polls and aborts in the middle of them:
+// every answer, every word, every register equal, to the cycle, bus cycles included. SystemC's host waits
+// every transfer out, so that both see time pass alike.
 #include "sim/engine/device.h"
 #include "tests/engine/engine_bench.h"
-#include "tests/support/dut_bus.h"
 #include "tests/systemc/register_table.h"
 
 namespace hopmesh::tests {
@@ -13,28 +13,35 @@ using Words = std::vector<std::uint32_t>;
 
 /// What both devices are asked to do, and how it went.
 struct Tally {
-  std::uint64_t accepted = 0, refused = 0, runs = 0, resets = 0, refused_starts = 0;
+  std::uint64_t accepted = 0, refused = 0, waits = 0, resets = 0, refused_starts = 0, aborts = 0,
+                polled_ends = 0;
+
+  void add(const Tally& t) {
+    accepted += t.accepted, refused += t.refused, waits += t.waits, resets += t.resets;
+    refused_starts += t.refused_starts, aborts += t.aborts, polled_ends += t.polled_ends;
+  }
 };
 
 class Lockstep {
  public:
   explicit Lockstep(std::uint64_t seed)
-      : dice_(seed), topology_(random_topology(dice_, 12)),
-        array_(random_array(dice_, topology_.most_taps())), windows_(window_rows(topology_)),
-        dut_(("dut" + std::to_string(seed)).c_str(), array_, topology_), dut_bus_(dut_),
+      : dice_(seed), topology_(random_topology(dice_, 8)), array_(random_array(dice_, topology_.most_taps())),
+        windows_(window_rows(topology_, array_)),
+        dut_(("dut" + std::to_string(seed)).c_str(), array_, topology_),
         device_(array_, topology_, {1, dice_.one_in(2) ? "auto" : "generic", 1}, stop_) {
     for (const RegisterRow& row : register_rows()) offsets_.push_back(row.offset);
+    if (dice_.one_in(4)) dut_.device.wake(systemc::Waking::by_clock);
   }
 
-  void act() {
-    const std::uint64_t what = dice_.below(16);
-    if (what == 0) return wait();
-    if (what == 1)
-      return control(static_cast<std::uint32_t>(dice_.one_in(3) ? dice_.bits() : dice_.below(4)));
-    if (what == 2) return interrupts();
-    if (what == 3) return limits();
-    if (what < 8) return one_word(any_address());
-    burst();
+  /// A few transfers, mostly about one run.
+  void sequence() {
+    if (dice_.one_in(2)) limits();
+    if (dice_.one_in(3)) interrupts();
+    if (dice_.one_in(3)) burst();
+    control(dice_.one_in(8) ? HM_CONTROL_RESET | HM_CONTROL_START : HM_CONTROL_START);
+    for (std::uint64_t k = dice_.below(12); k > 0; --k) act();
+    if (dice_.one_in(2)) poll();
+    if (dice_.one_in(2)) wait();
   }
 
   /// Everything that a host can see.
@@ -49,30 +56,66 @@ class Lockstep {
     stop_ = false;
     write(HM_REG_IRQ_STATUS, {~0u});
     wait();
+    compare_all();
+    dut_.pass_delay();
     sc_core::sc_start(dut_.device.cells.period() * 1000);
     ASSERT_EQ(dut_.irq.read(), device_.irq());
-    compare_all();
   }
 
   const Tally& tally() const { return tally_; }
   std::string text() const { return describe(ArrayJob{array_, topology_, {}, {}, {}, 0, 0}); }
 
  private:
-  const hm_bus& left() { return dut_bus_.bus(); }
-  const hm_bus& right() { return device_.bus(); }
+  const hm_bus& engine() { return device_.bus(); }
+
+  void act() {
+    switch (dice_.below(16)) {
+    case 0:
+      return wait();
+    case 1:
+    case 2:
+      return control(static_cast<std::uint32_t>(dice_.one_in(3) ? dice_.bits() : dice_.below(8)));
+    case 3:
+      return interrupts();
+    case 4:
+      return limits();
+    case 5:
+      return one_word(any_address());
+    case 6:
+      return burst();
+    default:
+      return read(offsets_[dice_.below(offsets_.size())], 1);
+    }
+  }
+
+  /// Asks until the array is at rest, or patience ends.
+  void poll() {
+    const bool was_busy = busy();
+    for (std::uint64_t patience = dice_.below(400); patience > 0 && busy(); --patience)
+      read(HM_REG_STATUS, 1);
+    tally_.polled_ends += was_busy && !busy();
+  }
+
+  int ask_systemc(tlm::tlm_command command, std::uint32_t address, const std::uint32_t* words,
+                  std::size_t count) {
+    dut_.pass_delay();
+    const auto answer =
+        dut_.transfer(command, address, const_cast<std::uint32_t*>(words), static_cast<unsigned>(4 * count));
+    return answer == tlm::TLM_OK_RESPONSE ? HM_OK : HM_ERROR_BUS;
+  }
 
   void answer(int systemc, int engine, const char* what, std::uint32_t address, std::size_t count) {
     ASSERT_EQ(engine, systemc) << what << " of " << count << " at 0x" << std::hex << address;
+    ASSERT_EQ(device_.irq(), line_up());
     (systemc == HM_OK ? tally_.accepted : tally_.refused) += 1;
   }
 
   void read(std::uint32_t address, std::uint32_t count) {
     Words a(count + 2, 0xA5A5A5A5u), b = a;
     const bool single = count == 1 && dice_.one_in(2);
-    const int x = single ? left().read(left().context, address, a.data())
-                         : left().read_burst(left().context, address, a.data(), count);
-    const int y = single ? right().read(right().context, address, b.data())
-                         : right().read_burst(right().context, address, b.data(), count);
+    const int x = ask_systemc(tlm::TLM_READ_COMMAND, address, a.data(), count);
+    const int y = single ? engine().read(engine().context, address, b.data())
+                         : engine().read_burst(engine().context, address, b.data(), count);
     answer(x, y, "read", address, count);
     ASSERT_EQ(b, a) << "at 0x" << std::hex << address;
   }
@@ -81,10 +124,9 @@ class Lockstep {
     const auto count = static_cast<std::uint32_t>(words.size());
     const bool single = count == 1 && dice_.one_in(2);
     const std::uint32_t* data = words.empty() ? offsets_.data() : words.data(); // there, and not looked at
-    const int x = single ? left().write(left().context, address, *data)
-                         : left().write_burst(left().context, address, data, count);
-    const int y = single ? right().write(right().context, address, *data)
-                         : right().write_burst(right().context, address, data, count);
+    const int x = ask_systemc(tlm::TLM_WRITE_COMMAND, address, data, count);
+    const int y = single ? engine().write(engine().context, address, *data)
+                         : engine().write_burst(engine().context, address, data, count);
     answer(x, y, "write", address, count);
   }
 
@@ -101,28 +143,34 @@ class Lockstep {
   bool busy() { return (peek(HM_REG_STATUS) & HM_STATUS_BUSY) != 0; }
   bool line_up() { return (peek(HM_REG_IRQ_STATUS) & peek(HM_REG_IRQ_ENABLE)) != 0; }
 
-  /// As the engine promises it: a line that is up ends it at once, a stop too, and else the run is seen
-  /// through.
+  /// As the engine promises it: a line that is up ends it at once, a stop too, and else what is at work is
+  /// seen through.
   int wait_for_systemc() {
+    dut_.pass_delay();
     if (line_up()) return HM_OK;
     if (stop_) return HM_ERROR_STOPPED;
-    tally_.runs += busy();
-    while (busy()) sc_core::sc_start(dut_.device.cells.period() * 4096);
+    tally_.waits += busy();
+    while (busy()) {
+      sc_core::sc_start(sc_core::sc_time_to_pending_activity());
+      dut_.pass_delay();
+    }
     return line_up() ? HM_OK : HM_ERROR_STOPPED;
   }
   void wait() {
-    ASSERT_EQ(right().wait(right().context), wait_for_systemc());
+    ASSERT_EQ(engine().wait(engine().context), wait_for_systemc());
     ASSERT_EQ(device_.irq(), line_up());
   }
 
   void control(std::uint32_t word) {
+    dut_.pass_delay();
     tally_.refused_starts += busy() && (word & 3);
     tally_.resets += !busy() && (word & HM_CONTROL_RESET);
+    tally_.aborts += busy() && (word & HM_CONTROL_ABORT);
     write(HM_REG_CONTROL, {word});
   }
   void interrupts() {
-    write(dice_.one_in(2) ? HM_REG_IRQ_ENABLE : HM_REG_IRQ_STATUS,
-          {static_cast<std::uint32_t>(dice_.bits())});
+    constexpr std::uint32_t offsets[] = {HM_REG_IRQ_ENABLE, HM_REG_IRQ_STATUS, HM_REG_IRQ_TEST};
+    write(offsets[dice_.below(3)], {static_cast<std::uint32_t>(dice_.bits())});
   }
   void limits() {
     if (dice_.one_in(8)) stop_ = !stop_;
@@ -178,7 +226,6 @@ class Lockstep {
   Tally tally_;
   std::atomic<bool> stop_{false};
   Dut dut_;
-  DutBus dut_bus_;
   engine::Device device_;
 };
 
@@ -186,7 +233,7 @@ class EngineDevice : public testing::TestWithParam<int> {};
 
 TEST_P(EngineDevice, AnswersAsSystemCDoes) {
   std::vector<std::unique_ptr<Lockstep>> all;
-  constexpr std::uint64_t devices = 40;
+  constexpr std::uint64_t devices = 40, sequences = 2500;
   const std::uint64_t first = 1000000 + devices * static_cast<std::uint64_t>(GetParam());
   for (std::uint64_t seed = first; seed < first + devices; ++seed)
     all.push_back(std::make_unique<Lockstep>(seed));
@@ -194,21 +241,21 @@ TEST_P(EngineDevice, AnswersAsSystemCDoes) {
   for (std::uint64_t k = 0; k < devices; ++k) {
     SCOPED_TRACE("seed " + std::to_string(first + k) + ": " + all[k]->text());
     all[k]->compare_all(); // as they leave the factory
-    for (int action = 0; action < 1000; ++action) {
-      all[k]->act();
-      if (action % 100 == 99) all[k]->compare_all();
-      if (HasFatalFailure()) FAIL() << "action " << action;
+    for (std::uint64_t at = 0; at < sequences; ++at) {
+      all[k]->sequence();
+      if (at % 25 == 24) all[k]->compare_all();
+      if (HasFatalFailure()) FAIL() << "sequence " << at;
     }
     all[k]->settle();
-    const Tally& t = all[k]->tally();
-    sum.accepted += t.accepted, sum.refused += t.refused, sum.runs += t.runs, sum.resets += t.resets;
-    sum.refused_starts += t.refused_starts;
+    sum.add(all[k]->tally());
   }
-  EXPECT_GT(sum.accepted, 500 * devices);
-  EXPECT_GT(sum.refused, 100 * devices);
-  EXPECT_GT(sum.runs, 5 * devices);
-  EXPECT_GT(sum.resets, 3 * devices);
-  EXPECT_GT(sum.refused_starts, 3 * devices);
+  EXPECT_GT(sum.accepted, 20000 * devices);
+  EXPECT_GT(sum.refused, 4000 * devices);
+  EXPECT_GT(sum.waits, 200 * devices);
+  EXPECT_GT(sum.polled_ends, 200 * devices);
+  EXPECT_GT(sum.resets, 200 * devices);
+  EXPECT_GT(sum.refused_starts, 400 * devices);
+  EXPECT_GT(sum.aborts, 400 * devices);
 }
 
 INSTANTIATE_TEST_SUITE_P(Batch, EngineDevice, testing::Range(0, 4));

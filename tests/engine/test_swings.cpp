@@ -9,9 +9,9 @@ struct Bench {
   Bench(std::uint64_t seed_of_job, const ArrayJob& a_job)
       : seed(seed_of_job), job(a_job), dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
   void run_systemc() {
-    dut.write(HM_WINDOW_WEIGHT, job.weight);
-    dut.write(HM_WINDOW_BIAS, job.bias);
-    dut.write(HM_WINDOW_OUTPUT, job.start);
+    dut.put_codes(Window::WEIGHT, job.weight);
+    dut.put_codes(Window::BIAS, job.bias);
+    dut.put_codes(Window::OUTPUT, job.start);
     dut.start(job.threshold, job.max_sweeps);
     dut.run_until_done();
   }

@@ -33,6 +33,8 @@ class Host : public sc_core::sc_module {
   // An array tells what it is, so that one program can drive any of them.
   void look() {
     if (read(HM_REG_ID) != HM_ID_VALUE) SC_REPORT_FATAL("host", "no Hopmesh array at this address");
+    if (HM_FIELD(read(HM_REG_VERSION), VERSION_MAJOR) != HM_VERSION_MAJOR)
+      SC_REPORT_FATAL("host", "registers of another version");
     std::printf("array of %u cells of %u neurons, %u weights\n", read(HM_REG_CAP_CELLS),
                 read(HM_REG_CAP_NEURONS_PER_CELL), read(HM_REG_CAP_WEIGHT_WORDS));
   }
@@ -49,9 +51,9 @@ class Host : public sc_core::sc_module {
         -1.0, 0.0,  0.5, 0.0, // cell b, x
         0.0,  -1.0, 0.0, 0.5, // cell b, y
     };
-    write(HM_WINDOW_WEIGHT, codes(weights, HM_REG_CAP_FORMAT_WEIGHT));
-    write(HM_WINDOW_BIAS, codes({0.25, 0.0, 0.0, -0.5}, HM_REG_CAP_FORMAT_BIAS));
-    write(HM_WINDOW_OUTPUT, std::vector<std::uint32_t>(4, 0)); // start from V = 0
+    write(read(HM_REG_CAP_WINDOW_WEIGHT), codes(weights, HM_REG_CAP_FORMAT_WEIGHT));
+    write(read(HM_REG_CAP_WINDOW_BIAS), codes({0.25, 0.0, 0.0, -0.5}, HM_REG_CAP_FORMAT_BIAS));
+    write(read(HM_REG_CAP_WINDOW_OUTPUT), std::vector<std::uint32_t>(4, 0)); // start from V = 0
   }
 
   void run() {
@@ -68,7 +70,7 @@ class Host : public sc_core::sc_module {
 
   void print_outputs() {
     std::vector<std::uint32_t> outputs(4);
-    transfer(tlm::TLM_READ_COMMAND, HM_WINDOW_OUTPUT, outputs);
+    transfer(tlm::TLM_READ_COMMAND, read(HM_REG_CAP_WINDOW_OUTPUT), outputs);
     const double last_place = std::ldexp(1.0, -fraction_bits(HM_REG_CAP_FORMAT_STATE));
     for (int cell = 0; cell < 2; ++cell)
       std::printf("cell %c: V = (%.3f, %.3f)\n", 'a' + cell,

@@ -24,6 +24,11 @@ struct FakeArray {
   spec::NumberFormat weight{16, 1, spec::Rounding::rnd, spec::Overflow::sat};
   spec::NumberFormat bias{24, 9, spec::Rounding::rnd, spec::Overflow::sat};
   spec::NumberFormat state{16, 2, spec::Rounding::trn_zero, spec::Overflow::sat};
+  /// Where windows begin: nothing that a driver could have computed.
+  std::uint32_t first_link = 0x7000, link = 0x9100, biases = 0x5550, outputs = 0x2340, weights = 0xABCDE000;
+  /// Codes in a word.
+  std::uint32_t of_bias = 1, of_output = 1, of_weight = 1;
+  std::uint32_t packing() const { return of_bias | of_output << 8 | of_weight << 16 | 1u << 24; }
 };
 
 /// A path of three free nodes 0 - 1 - 2, held by the pinned node 3: planar, so that it can be checked by
@@ -49,14 +54,20 @@ class DriverTest : public testing::Test {
   /// open, in order. Bursts are as long as the buffer.
   void expect_open(const FakeArray& array) {
     bus.expect_read(HM_REG_ID, HM_ID_VALUE);
-    bus.expect_read(HM_REG_VERSION, HM_VERSION_VALUE);
+    bus.expect_read(HM_REG_VERSION, version);
     bus.expect_read(HM_REG_CAP_CELLS, mesh.mesh.cells);
     bus.expect_read(HM_REG_CAP_NEURONS_PER_CELL, mesh.mesh.components);
     const std::uint32_t links = mesh.mesh.first_link[mesh.mesh.cells];
     bus.expect_read(HM_REG_CAP_LINK_WORDS, links);
-    expect_bursts(false, HM_WINDOW_FIRST_LINK,
+    bus.expect_read(HM_REG_CAP_WINDOW_FIRST_LINK, array.first_link);
+    expect_bursts(false, array.first_link,
                   {mesh.mesh.first_link, mesh.mesh.first_link + mesh.mesh.cells + 1});
-    expect_bursts(false, HM_WINDOW_LINK, {mesh.mesh.link_to, mesh.mesh.link_to + links});
+    bus.expect_read(HM_REG_CAP_WINDOW_LINK, array.link);
+    expect_bursts(false, array.link, {mesh.mesh.link_to, mesh.mesh.link_to + links});
+    bus.expect_read(HM_REG_CAP_PACKING, array.packing());
+    bus.expect_read(HM_REG_CAP_WINDOW_BIAS, array.biases);
+    bus.expect_read(HM_REG_CAP_WINDOW_OUTPUT, array.outputs);
+    bus.expect_read(HM_REG_CAP_WINDOW_WEIGHT, array.weights);
     bus.expect_read(HM_REG_CAP_NORMALISER, array.normaliser);
     bus.expect_read(HM_REG_CAP_OUTPUT, array.output);
     bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, spec::format_word(array.weight));
@@ -72,9 +83,9 @@ class DriverTest : public testing::Test {
   void expect_relax(const FakeArray& array, int shift, std::uint32_t threshold_raw, std::uint32_t max_sweeps,
                     const std::vector<std::uint32_t>& answer) {
     bus.expect_read(HM_REG_STATUS, HM_STATUS_DONE);
-    expect_bursts(true, HM_WINDOW_WEIGHT, codes(mesh.weight, shift, array.weight));
-    expect_bursts(true, HM_WINDOW_BIAS, codes(mesh.bias, shift, array.bias));
-    expect_bursts(true, HM_WINDOW_OUTPUT, codes(mesh.output, 0, array.state));
+    expect_bursts(true, array.weights, packed(codes(mesh.weight, shift, array.weight), array.of_weight));
+    expect_bursts(true, array.biases, packed(codes(mesh.bias, shift, array.bias), array.of_bias));
+    expect_bursts(true, array.outputs, packed(codes(mesh.output, 0, array.state), array.of_output));
     bus.expect_write(HM_REG_THRESHOLD, threshold_raw);
     bus.expect_write(HM_REG_MAX_SWEEPS, max_sweeps);
     bus.expect_write(HM_REG_IRQ_STATUS, HM_IRQ_DONE); // left over from a run that nobody waited for
@@ -85,7 +96,7 @@ class DriverTest : public testing::Test {
     bus.expect_read(HM_REG_SWEEPS, 17);
     bus.expect_read(HM_REG_CYCLES_LO, 0x89ABCDEFu);
     bus.expect_read(HM_REG_CYCLES_HI, 0x12u);
-    expect_bursts(false, HM_WINDOW_OUTPUT, answer);
+    expect_bursts(false, array.outputs, packed(answer, array.of_output));
   }
   int relax(double threshold, std::uint32_t max_sweeps) {
     return hm_driver_relax(&driver, &mesh.mesh, &mesh.network, threshold, max_sweeps, &result);
@@ -95,6 +106,18 @@ class DriverTest : public testing::Test {
                                           const spec::NumberFormat& f) {
     std::vector<std::uint32_t> words;
     for (double x : values) words.push_back(static_cast<std::uint32_t>(quantise_double(x, shift, f)));
+    return words;
+  }
+
+  /// Codes side by side in words, the first at the low end: 8, 16 or all 32 bits of each.
+  static std::vector<std::uint32_t> packed(const std::vector<std::uint32_t>& codes, std::size_t in_a_word) {
+    std::vector<std::uint32_t> words;
+    for (std::size_t k = 0; k < codes.size(); k += in_a_word) {
+      std::uint64_t word = 0, place = 1;
+      for (std::size_t j = k; j < std::min(codes.size(), k + in_a_word); ++j, place <<= 32 / in_a_word)
+        word += place * (codes[j] % (std::uint64_t{1} << 32 / in_a_word));
+      words.push_back(static_cast<std::uint32_t>(word));
+    }
     return words;
   }
 
@@ -116,6 +139,7 @@ class DriverTest : public testing::Test {
     for (std::size_t k = 0; k < mesh.output.size(); ++k) mesh.output[k] = -1 + 0.4 * k;
   }
 
+  std::uint32_t version = HM_VERSION_VALUE; ///< that the array tells
   FirmwareMesh mesh;
   std::vector<std::uint32_t> buffer = std::vector<std::uint32_t>(64);
   hm_driver driver{};

@@ -50,10 +50,40 @@ TEST_F(DriverTest, OpenRefusesAnotherDevice) {
   EXPECT_EQ(open(), HM_ERROR_ID);
 }
 
-TEST_F(DriverTest, OpenRefusesAnotherVersion) {
-  bus.expect_read(HM_REG_ID, HM_ID_VALUE);
-  bus.expect_read(HM_REG_VERSION, HM_VERSION_VALUE + 0x10000u);
-  EXPECT_EQ(open(), HM_ERROR_ID);
+/// Version 1.1 had its windows at places of its own: nothing more is asked of it.
+TEST_F(DriverTest, OpenRefusesAnotherMajorVersionAndTellsWhich) {
+  for (std::uint32_t other : {0x00010001u, 0x00010000u, 0x00030000u, 0u}) {
+    bus.expect_read(HM_REG_ID, HM_ID_VALUE);
+    bus.expect_read(HM_REG_VERSION, other);
+    EXPECT_EQ(open(), HM_ERROR_VERSION);
+    EXPECT_EQ(driver.version, other);
+    EXPECT_EQ(bus.outstanding(), 0u);
+  }
+}
+
+/// A minor version only adds.
+TEST_F(DriverTest, OpenTakesAnotherMinorVersion) {
+  version = HM_VERSION_VALUE + 7;
+  expect_open({});
+  EXPECT_EQ(open(), HM_OK);
+  EXPECT_EQ(driver.version, version);
+}
+
+/// The drivers of version 1 compared the whole word with theirs.
+TEST_F(DriverTest, DriversOfVersionOneRefuseThisOne) {
+  EXPECT_NE(HM_VERSION_VALUE, 0x00010001u);
+  EXPECT_EQ(HM_VERSION_VALUE, 0x00020000u);
+}
+
+TEST_F(DriverTest, OpenRefusesAPackingThatIsNone) {
+  for (std::uint32_t codes : {0u, 3u, 8u, 255u}) {
+    FakeArray array;
+    array.of_weight = codes;
+    expect_open(array);
+    bus.drop(7); // from CAP_WINDOW_WEIGHT on
+    EXPECT_EQ(open(), HM_ERROR_ID) << codes;
+    EXPECT_EQ(bus.outstanding(), 0u);
+  }
 }
 
 TEST_F(DriverTest, OpenRefusesABufferWithoutRoom) {
@@ -77,8 +107,10 @@ TEST_P(OtherMesh, IsRefused) {
       link(m.link_to, m.link_to + links);
   if (stage == 3) first[1] += 1;
   if (stage == 4) link.back() = 2;
-  if (stage > 2) bus.expect_read_burst(HM_WINDOW_FIRST_LINK, first);
-  if (stage > 3) bus.expect_read_burst(HM_WINDOW_LINK, link);
+  if (stage > 2) bus.expect_read(HM_REG_CAP_WINDOW_FIRST_LINK, 0x7000);
+  if (stage > 2) bus.expect_read_burst(0x7000, first);
+  if (stage > 3) bus.expect_read(HM_REG_CAP_WINDOW_LINK, 0x9000);
+  if (stage > 3) bus.expect_read_burst(0x9000, link);
   EXPECT_EQ(open(), HM_ERROR_MESH);
 }
 
@@ -94,7 +126,7 @@ TEST_F(DriverTest, OpenPassesOnEveryErrorOfTheBus) {
     EXPECT_EQ(open(), platform_error) << "access " << k;
     ASSERT_EQ(bus.outstanding(), 0u) << "access " << k;
   }
-  EXPECT_EQ(accesses, 13u);
+  EXPECT_EQ(accesses, 19u);
 }
 
 } // namespace

@@ -37,6 +37,45 @@ TEST_F(Relax, WritesTheNetworkStartsWaitsAndReadsBack) {
   EXPECT_EQ(driver.clipped, 0u);
 }
 
+/// Rows and buffers of odd lengths; the last word of a window is not always full.
+TEST_F(Relax, PacksCodesAsTheArrayTells) {
+  for (std::size_t words : {1, 2, 3, 5, 64})
+    for (std::uint32_t of_weight : {1u, 2u, 4u})
+      for (std::uint32_t of_output : {1u, 2u})
+        for (std::uint32_t of_bias : {1u, 2u, 4u}) {
+          buffer.resize(words);
+          FakeArray packed;
+          packed.of_weight = of_weight, packed.of_output = of_output, packed.of_bias = of_bias;
+          if (of_weight == 4) packed.weight = {8, 1, spec::Rounding::rnd, spec::Overflow::sat};
+          if (of_bias == 2) packed.bias = {16, 5, spec::Rounding::rnd, spec::Overflow::sat};
+          if (of_bias == 4) packed.bias = {7, 5, spec::Rounding::rnd, spec::Overflow::sat};
+          open_with(packed);
+          fill(3, 0.7);
+          expect_relax(array, shift(), 16384, 1, some_answer);
+          EXPECT_EQ(relax(1, 1), HM_OK);
+          EXPECT_EQ(mesh.output, some_outputs) << words << " " << of_weight << of_output << of_bias;
+        }
+}
+
+/// Prescaled rows come piece by piece, and words do not end where rows do.
+TEST_F(Relax, PacksPrescaledRowsAcrossTheirEnds) {
+  for (std::size_t words : {1, 2, 64}) {
+    buffer.resize(words);
+    FakeArray prescaled;
+    prescaled.normaliser = HM_NORMALISER_PRESCALED;
+    prescaled.weight = prescaled.bias = {8, 1, spec::Rounding::rnd, spec::Overflow::sat};
+    prescaled.of_weight = prescaled.of_bias = 4;
+    open_with(prescaled);
+    fill(0, 0);
+    mesh.weight[0] = 3, mesh.weight[3] = -1, mesh.bias[0] = 4;
+    const std::vector<double> weight = mesh.weight, bias = mesh.bias;
+    mesh.weight[0] = 0.375, mesh.weight[3] = -0.125, mesh.bias[0] = 0.5;
+    expect_relax(array, 0, 0, 1, some_answer);
+    mesh.weight = weight, mesh.bias = bias;
+    EXPECT_EQ(relax(0, 1), HM_OK);
+  }
+}
+
 TEST_F(Relax, UsesNoMoreThanTheBuffer) {
   for (std::size_t words : {1, 2, 5, 6, 7}) {
     buffer.resize(words);

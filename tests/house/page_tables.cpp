@@ -1,8 +1,7 @@
 #include "tests/house/page_tables.h"
 
-#include "firmware/registers.h"
+#include "rtl_model/describe/register_rows.h"
 
-#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -10,37 +9,11 @@ namespace hopmesh::tests {
 
 namespace {
 
-std::string hex(std::uint32_t value, int digits) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%0*X", digits, static_cast<unsigned>(value));
-  return text;
-}
-
 // A bar would end the cell.
 std::string cell(const std::string& text) {
   std::string escaped;
   for (char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
   return escaped;
-}
-
-std::string register_table() {
-  std::string table = "| register | offset | access | reset | meaning |\n|---|---|---|---|---|\n";
-#define HM_X(name, offset, access, reset, meaning)                                                           \
-  table += "| `" #name "` | " + hex(offset, 3) + " | " #access " | " +                                       \
-           (offset >= HM_REG_CAP_CELLS && offset < HM_REG_CONTROL ? "as built" : hex(reset, 1)) + " | " +    \
-           cell(meaning) + " |\n";
-  HM_REGISTERS(HM_X)
-#undef HM_X
-  return table;
-}
-
-std::string window_table() {
-  std::string table = "| window | base | access | content |\n|---|---|---|---|\n";
-#define HM_X(name, base, access, meaning)                                                                    \
-  table += "| `" #name "` | " + hex(base, 8) + " | " #access " | " + cell(meaning) + " |\n";
-  HM_WINDOWS(HM_X)
-#undef HM_X
-  return table;
 }
 
 template <class Column, std::size_t n> std::vector<Column> all(const Column (&columns)[n]) {
@@ -57,8 +30,9 @@ std::string page_row(const std::vector<std::string>& cells) {
 
 std::string with_tables(const std::string& page) {
   const std::map<std::string, std::string> tables{
-      {"<!-- table registers -->", register_table()},
-      {"<!-- table windows -->", window_table()},
+      {"<!-- table registers -->", describe::register_table()},
+      {"<!-- table fields -->", describe::field_table()},
+      {"<!-- table windows -->", describe::window_table()},
       {"<!-- table steps -->", step_table(all(levels::all_step_columns))},
       {"<!-- table results -->", result_table(all(study::all_result_columns))},
       {"<!-- table scene_keys -->", scene_table()},

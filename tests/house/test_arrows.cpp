@@ -20,6 +20,7 @@ const std::map<std::string, Rooms> allowed = {
     {"firmware", {}},
     {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
+    {"rtl_model/describe", {"firmware/registers.h"}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},
@@ -71,10 +72,11 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
 
 // The firmware's units by floor: a unit includes only units of floors below it. What all formulations of a
 // step stand on knows none of them.
-const std::vector<Rooms> firmware_floors = {{"bus", "registers", "doubles"},
-                                            {"host_bus"},
+const std::vector<Rooms> firmware_floors = {{"register_fields"},
+                                            {"bus", "registers", "doubles"},
+                                            {"host_bus", "try"},
                                             {"network", "quantise"},
-                                            {"springs", "relax"},
+                                            {"springs", "relax", "window"},
                                             {"driver", "time_step"},
                                             {"formulation"},
                                             {"incremental"},

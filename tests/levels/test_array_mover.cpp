@@ -96,6 +96,19 @@ TEST(ArrayMover, RawOutputsAreWhatTheArrayHolds) {
   EXPECT_EQ(rig.motion.outputs_raw(), rig.mesh.by_node(rest));
 }
 
+/// An array of version 1 is refused by name, before anything is asked that it might not have.
+TEST(ArrayMover, RefusesAnArrayOfVersionOne) {
+  Rig rig(grid_scene(2, 2));
+  rig.port.tell(HM_REG_VERSION, 0x00010001);
+  const auto refusal = [&] { return complaint<std::runtime_error>([&] { rig.motion.advance(); }); };
+  EXPECT_EQ(refusal(), "the array's registers are of version 1.1; this program knows version 2.0");
+  rig.port.tell(HM_REG_ID, 7);
+  EXPECT_EQ(refusal(), "there is no Hopmesh array behind the bus");
+  rig.port.tell(HM_REG_ID, HM_ID_VALUE);
+  rig.port.tell(HM_REG_VERSION, HM_VERSION_VALUE + 1);
+  EXPECT_EQ(refusal(), "");
+}
+
 TEST(BusArray, TellsWhatTheRegistersHold) {
   Rig rig(grid_scene(2, 3));
   const levels::BusArray array(rig.port.bus(), rig.mesh.topology());

@@ -93,11 +93,12 @@ struct Core {
 
   void choose_sum() {
     if (!exact) return;
-    int growth = 0;
-    while ((std::size_t{1} << growth) < longest() + 1) ++growth;
     sum.fraction = std::max(weight.fraction + link.fraction, bias.fraction);
-    sum.width =
-        sum.fraction + growth + std::max(weight.width - weight.fraction + 1, bias.width - bias.fraction);
+    const Wide bound = Wide(longest()) * (Wide{1} << (weight.width - weight.fraction - 1)) +
+                       (Wide{1} << (bias.width - bias.fraction - 1)); // of s, in whole units
+    int integer_bits = 1;
+    while (bound >= Wide{1} << (integer_bits - 1)) ++integer_bits;
+    sum.width = sum.fraction + integer_bits;
   }
 
   void show(std::size_t i) { L[i] = quantised(V[i], 1, link.fraction - state.fraction, link); }

@@ -94,15 +94,15 @@ TEST(ArrayRules, LinksAreNoFinerThanTheState) {
 }
 
 TEST(ArrayRules, ExactSumsFitSixtyTwoBits) {
-  // weight fixed<32,1> times link fixed<32,2>: 31 + 30 fraction bits; 2 integer bits and 5 of growth for 27
-  // taps.
+  // weight fixed<32,1> times link fixed<32,2>: 31 + 30 fraction bits; a bias fixed<24,9> makes sums of up to
+  // 27 + 256, which take ten.
   EXPECT_EQ(fault_of([](ArraySpec& a) {
               a.formats.weight = format(32, 1);
               a.formats.state = a.formats.link = format(32, 2);
             }),
             "formats.weight: fixed<32,1,SC_RND,SC_SAT>: formats whose exact sum fits 62 bits (this one needs "
-            "75 for rows "
-            "of 27 inputs)"); // the bias fixed<24,9> has more integer bits: 61 + 9 + 5
+            "71 for rows "
+            "of 27 inputs)");
 }
 
 TEST(ArrayRules, OwnAccumulatorsLieBetweenFourAndSixtyTwoBits) {
@@ -147,18 +147,79 @@ TEST(ArrayRules, ScalarsHaveBounds) {
 }
 
 TEST(ArrayRules, ExactAccumulatorByHand) {
-  // weight fixed<16,1> (F 15), link fixed<16,2> (F 14), bias fixed<24,9> (F 15); 27 taps and a bias:
-  // growth 5.
+  // weight fixed<16,1> (F 15), link fixed<16,2> (F 14), bias fixed<24,9> (F 15): a sum lies within 27 + 256.
   const NumberFormat exact = exact_accumulator_format(descent_array().formats, 27);
   EXPECT_EQ(exact.fraction_bits(), 29);
-  EXPECT_EQ(exact.integer_bits, 9 + 5);
-  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 3).integer_bits, 9 + 2);
-  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 31).integer_bits, 9 + 5);
-  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 32).integer_bits, 9 + 6);
+  EXPECT_EQ(exact.integer_bits, 10);
+  EXPECT_EQ(exact.width, 39);
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 3).integer_bits, 10);
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 255).integer_bits, 10); // 511
+  EXPECT_EQ(exact_accumulator_format(descent_array().formats, 256).integer_bits,
+            11); // 512 has no code in ten
   Formats fine_bias = descent_array().formats;
   fine_bias.bias = format(32, 1);
   fine_bias.link = fine_bias.state = format(8, 2);
   EXPECT_EQ(exact_accumulator_format(fine_bias, 3).fraction_bits(), 31); // finer than the product's 15 + 6
+  EXPECT_EQ(exact_accumulator_format(fine_bias, 3).integer_bits, 4);     // 3 + 1
+}
+
+/// The width holds the largest sum there is, and one bit less would not.
+TEST(ArrayRules, ExactAccumulatorIsTheLeastThatHoldsEverySum) {
+  for (int weight_integer = 1; weight_integer < 20; ++weight_integer)
+    for (int bias_integer = 1; bias_integer < 20; ++bias_integer)
+      for (std::size_t taps : {1, 2, 3, 7, 8, 27, 81, 1000, 65535, 65536}) {
+        Formats f = descent_array().formats;
+        f.weight = format(20, weight_integer);
+        f.bias = format(22, bias_integer);
+        const NumberFormat exact = exact_accumulator_format(f, taps);
+        // All weights and the bias at their least code, every V at -1 or +1: in last places of the sum.
+        const double one = std::ldexp(1.0, exact.fraction_bits());
+        const double largest = one * (static_cast<double>(taps) * std::ldexp(1.0, weight_integer - 1) +
+                                      std::ldexp(1.0, bias_integer - 1));
+        EXPECT_LT(largest, std::ldexp(1.0, exact.width - 1));
+        EXPECT_GE(largest, std::ldexp(1.0, exact.width - 2));
+      }
+}
+
+/// Cells of 1,023 links each, told by their number alone: 2^25 weights a pair of neurons.
+TEST(ArrayRules, TheMapFitsThirtyTwoAddressBits) {
+  Topology t;
+  const std::uint32_t cells = 1 << 15;
+  for (std::uint32_t c = 0; c <= cells; ++c) t.first_link.push_back(c * 1023);
+  t.link_to.resize(std::size_t{cells} * 1023);
+  ArraySpec a = guarded_array();
+  t.neurons_per_cell = 3;
+  EXPECT_EQ(t.weight_words(), std::size_t{9} << 25);
+  EXPECT_EQ(memory_map(a, t).span, most_span); // a window of 2 GiB at 2 GiB
+  EXPECT_FALSE(validate_on(a, t));
+  t.neurons_per_cell = 5; // no such cell, but words enough: a window of 4 GiB at 4 GiB
+  const auto fault = validate_on(a, t);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->key, "array.packing");
+  EXPECT_EQ(fault->found, "8 GiB of registers and windows");
+  a.packing = true;
+  EXPECT_FALSE(validate_on(a, t));
+}
+
+/// Codes of half a word and less share words; where none can, the key has no effect.
+TEST(ArrayRules, PackingCountsWhereSomethingCanBePacked) {
+  const auto counts = [](const Change& change) {
+    ArraySpec a = guarded_array();
+    change(a);
+    for (const ArrayKey& key : array_keys(a))
+      if (key.name == "array.packing") return key.counts;
+    return false;
+  };
+  EXPECT_TRUE(counts([](ArraySpec&) {}));
+  EXPECT_FALSE(counts([](ArraySpec& a) { a.formats.weight = format(17, 1); }));
+  EXPECT_TRUE(counts([](ArraySpec& a) {
+    a.formats.weight = format(17, 1);
+    a.formats.state = a.formats.link;
+  }));
+  EXPECT_TRUE(counts([](ArraySpec& a) {
+    a.formats.weight = format(32, 1);
+    a.formats.bias = format(16, 1);
+  }));
 }
 
 } // namespace

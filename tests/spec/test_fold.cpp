@@ -151,7 +151,7 @@ TEST(Fold, PipelinesThatANormaliserCannotHaveAreRefused) {
   EXPECT_EQ(fault(a), "array.pipeline: -1: 0 to 4");
   a.pipeline = 0;
   a.elements = -1;
-  EXPECT_EQ(fault(a), "array.elements: -1: 0 to 65536");
+  EXPECT_EQ(fault(a), "array.elements: -1: 0 to 4096");
 }
 
 } // namespace

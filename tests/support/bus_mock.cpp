@@ -21,11 +21,6 @@ std::string place(std::uint32_t address) {
   if (address == (offset)) return #name;
   HM_REGISTERS(HM_X)
 #undef HM_X
-#define HM_X(name, base, access, meaning)                                                                    \
-  if (address >= (base) && address - (base) < 0x10000000u)                                                   \
-    return #name "[" + std::to_string((address - (base)) / 4) + "]";
-  HM_WINDOWS(HM_X)
-#undef HM_X
   return hex(address);
 }
 

@@ -33,6 +33,8 @@ class BusMock {
 
   /// The k-th of the accesses expected so far (from 0) answers with this error, and nothing may follow it.
   void fail_at(std::size_t k, int error);
+  /// The last `count` of the accesses expected so far never come.
+  void drop(std::size_t count) { expected_.resize(expected_.size() - count); }
   /// Accesses expected and not yet made.
   std::size_t outstanding() const { return expected_.size(); }
 

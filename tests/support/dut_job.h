@@ -9,9 +9,9 @@
 namespace hopmesh::tests {
 
 inline void load(Dut& dut, const cosim::ArrayJob& job) {
-  ASSERT_EQ(dut.write(HM_WINDOW_WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_BIAS, job.bias), tlm::TLM_OK_RESPONSE);
-  ASSERT_EQ(dut.write(HM_WINDOW_OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
+  ASSERT_EQ(dut.put_codes(Window::WEIGHT, job.weight), tlm::TLM_OK_RESPONSE);
+  ASSERT_EQ(dut.put_codes(Window::BIAS, job.bias), tlm::TLM_OK_RESPONSE);
+  ASSERT_EQ(dut.put_codes(Window::OUTPUT, job.start), tlm::TLM_OK_RESPONSE);
 }
 
 } // namespace hopmesh::tests

@@ -11,24 +11,27 @@ namespace hopmesh::tests {
 SoftArray::SoftArray(const spec::ArraySpec& array, const spec::Topology& topology, std::optional<Fault> fault)
     : job_{array, topology, {}, {}, {}}, fault_(fault), first_link_(topology.first_link),
       link_(topology.link_to) {
+  job_.array.packing = false;
+  map_ = spec::memory_map(job_.array, topology);
   job_.weight.resize(topology.weight_words());
   job_.bias.resize(topology.neurons());
   job_.start.resize(topology.neurons());
   registers_ = {{HM_REG_ID, HM_ID_VALUE}, {HM_REG_VERSION, HM_VERSION_VALUE}};
   const std::size_t phases = spec::phases_of(topology, array.schedule).size();
-  for (const auto& [offset, word] : spec::capability_words(array, topology, phases))
+  for (const auto& [offset, word] : spec::capability_words(job_.array, topology, phases))
     registers_[offset] = word;
 }
 
 std::uint32_t* SoftArray::word_at(std::uint32_t address) {
-  const auto in = [address](std::uint32_t window, auto& words) {
-    return reinterpret_cast<std::uint32_t*>(words.data()) + (address - window) / 4;
+  using spec::Window;
+  const auto in = [&](Window window, auto& words) {
+    return reinterpret_cast<std::uint32_t*>(words.data()) + (address - map_[window].offset) / 4;
   };
-  if (address >= HM_WINDOW_WEIGHT) return in(HM_WINDOW_WEIGHT, job_.weight);
-  if (address >= HM_WINDOW_OUTPUT) return in(HM_WINDOW_OUTPUT, job_.start);
-  if (address >= HM_WINDOW_BIAS) return in(HM_WINDOW_BIAS, job_.bias);
-  if (address >= HM_WINDOW_LINK) return in(HM_WINDOW_LINK, link_);
-  if (address >= HM_WINDOW_FIRST_LINK) return in(HM_WINDOW_FIRST_LINK, first_link_);
+  if (map_[Window::WEIGHT].holds(address)) return in(Window::WEIGHT, job_.weight);
+  if (map_[Window::OUTPUT].holds(address)) return in(Window::OUTPUT, job_.start);
+  if (map_[Window::BIAS].holds(address)) return in(Window::BIAS, job_.bias);
+  if (map_[Window::LINK].holds(address)) return in(Window::LINK, link_);
+  if (map_[Window::FIRST_LINK].holds(address)) return in(Window::FIRST_LINK, first_link_);
   return &registers_[address];
 }
 
@@ -40,7 +43,7 @@ int SoftArray::transfer(std::uint32_t address, std::uint32_t* words, std::uint32
     else
       words[k] = *word_at(address + 4 * k);
   registers_[HM_REG_BUS_CYCLES_LO] += static_cast<std::uint32_t>(spec::bus_cycles(job_.array, count));
-  if (write && address == HM_WINDOW_OUTPUT) loads_ += 1, sweeps_ = 0;
+  if (write && address == map_[spec::Window::OUTPUT].offset) loads_ += 1, sweeps_ = 0;
   if (write && address == HM_REG_CONTROL && (words[0] & HM_CONTROL_START)) run();
   return HM_OK;
 }

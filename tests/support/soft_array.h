@@ -2,7 +2,7 @@
 // a fault to order.
 #pragma once
 
-#include "firmware/registers.h"
+#include "rtl_model/spec/memory_map.h"
 #include "sim/levels/array_port.h"
 #include "tests/support/slow_array.h"
 
@@ -38,6 +38,8 @@ class SoftArray : public levels::ArrayPort {
   void end_step(std::uint64_t step) override { ended.push_back(step); }
   std::vector<levels::SignalRange> inner_ranges() const override;
 
+  /// What a register tells from now on.
+  void tell(std::uint32_t offset, std::uint32_t word) { registers_[offset] = word; }
   /// Counts `from_load` from now.
   void forget_loads() { loads_ = 0; }
 
@@ -50,7 +52,8 @@ class SoftArray : public levels::ArrayPort {
   int transfer(std::uint32_t address, std::uint32_t* words, std::uint32_t count, bool write);
   void run();
 
-  ArrayJob job_;
+  ArrayJob job_; ///< a code a word, whatever the array's packing is
+  spec::MemoryMap map_;
   std::optional<Fault> fault_;
   std::map<std::uint32_t, std::uint32_t> registers_;
   std::vector<std::uint32_t> first_link_, link_;

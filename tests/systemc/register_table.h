@@ -34,22 +34,38 @@ inline std::vector<RegisterRow> register_rows() {
 
 struct WindowRow {
   std::string name;
-  std::uint32_t base = 0;
   bool writable = false;
+  std::uint64_t codes = 0;
+  int width = 32; ///< of a code
   std::uint64_t words = 0;
+  std::uint32_t base = 0; ///< 0: of no words
 };
 
-inline std::vector<WindowRow> window_rows(const spec::Topology& t) {
+/// The map by the page's rule: each window takes the least power of two that holds its words, at a multiple
+/// of that.
+inline std::vector<WindowRow> window_rows(const spec::Topology& t, const spec::ArraySpec& a) {
   std::vector<WindowRow> rows;
-#define HM_X(name, base, access, meaning) rows.push_back({#name, base, Access::access == Access::RW, 0});
+#define HM_X(name, access, meaning) rows.push_back({#name, Access::access == Access::RW});
   HM_WINDOWS(HM_X)
 #undef HM_X
+  std::uint64_t end = 0x1000;
   for (WindowRow& row : rows) {
-    if (row.name == "FIRST_LINK") row.words = t.cells() + 1;
-    if (row.name == "LINK") row.words = t.link_to.size();
-    if (row.name == "BIAS" || row.name == "OUTPUT") row.words = t.cells() * t.neurons_per_cell;
+    if (row.name == "FIRST_LINK") row.codes = t.cells() + 1;
+    if (row.name == "LINK") row.codes = t.link_to.size();
+    if (row.name == "BIAS" || row.name == "OUTPUT") row.codes = t.cells() * t.neurons_per_cell;
+    if (row.name == "BIAS") row.width = a.formats.bias.width;
+    if (row.name == "OUTPUT") row.width = a.formats.state.width;
+    if (row.name == "WEIGHT") row.width = a.formats.weight.width;
     if (row.name == "WEIGHT")
-      for (std::size_t c = 0; c < t.cells(); ++c) row.words += t.neurons_per_cell * t.taps(c);
+      for (std::size_t c = 0; c < t.cells(); ++c) row.codes += t.neurons_per_cell * t.taps(c);
+    const std::uint64_t share = !a.packing || row.width > 16 ? 1 : row.width > 8 ? 2 : 4;
+    row.words = row.codes / share + (row.codes % share > 0);
+    if (row.words == 0) continue;
+    std::uint64_t room = 1;
+    while (room < 4 * row.words) room *= 2;
+    while (end % room != 0) ++end;
+    row.base = static_cast<std::uint32_t>(end);
+    end += room;
   }
   return rows;
 }

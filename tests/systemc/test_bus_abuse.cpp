@@ -16,8 +16,9 @@ class Abuser {
  public:
   explicit Abuser(std::uint64_t seed)
       : dice_(seed), topology_(ring_topology(4)), array_(small_array(32 << seed % 3)),
-        dut_("dut", array_, topology_), windows_(window_rows(topology_)) {
+        dut_("dut", array_, topology_), windows_(window_rows(topology_, array_)) {
     for (const RegisterRow& row : register_rows()) registers_[row.offset] = row;
+    while (windows_.back().words == 0) windows_.pop_back();
     Dut::elaborate();
     see_everything();
   }
@@ -34,7 +35,8 @@ class Abuser {
     if (!reasons.empty()) {
       ASSERT_TRUE(reasons.count(answer)) << text(a) << " got " << payload.get_response_string();
       ASSERT_EQ(buffer_, before) << text(a);
-      ASSERT_EQ(dut_.last_delay, sc_core::SC_ZERO_TIME);
+      ASSERT_EQ(dut_.last_delay, dut_.device.cells.period() * 2);
+      held_ += 2;
       ++refused;
       return;
     }
@@ -52,16 +54,18 @@ class Abuser {
     sc_core::sc_start(dut_.device.cells.period() * 1000000);
     const auto old = memory_;
     const std::uint32_t enable = memory_[HM_REG_IRQ_ENABLE],
-                        status = memory_[HM_REG_IRQ_STATUS] | HM_IRQ_DONE;
+                        status = memory_[HM_REG_IRQ_STATUS] | (resetting_ ? 0 : HM_IRQ_DONE);
     see_everything();
-    ASSERT_EQ(memory_[HM_REG_STATUS] & 3, std::uint32_t{HM_STATUS_DONE});
+    ASSERT_EQ(memory_[HM_REG_STATUS], resetting_ ? 0u : memory_[HM_REG_STATUS] | HM_STATUS_DONE);
+    ASSERT_EQ(memory_[HM_REG_STATUS] & HM_STATUS_BUSY, 0u);
+    ASSERT_EQ((memory_[HM_REG_STATUS] & HM_STATUS_ABORTED) != 0, aborted_);
     ASSERT_EQ(memory_[HM_REG_IRQ_STATUS], status);
     ASSERT_EQ(dut_.irq.read(), (status & enable) != 0);
     for (const auto& [address, value] : memory_) {
-      const bool stays = address >= HM_WINDOW_FIRST_LINK && (address >> 28) != HM_WINDOW_OUTPUT >> 28;
+      const bool stays = address >= 0x1000 && !in("OUTPUT", address);
       ASSERT_TRUE(!stays || value == old.at(address)) << std::hex << address;
     }
-    busy_ = false;
+    busy_ = resetting_ = aborted_ = false;
     ++runs;
   }
 
@@ -75,8 +79,7 @@ class Abuser {
                                   : tlm::TLM_WRITE_COMMAND;
     a.address = address();
     a.length = dice_.one_in(8) ? static_cast<unsigned>(dice_.below(40)) : 4;
-    if (a.address >= HM_WINDOW_FIRST_LINK && dice_.one_in(3))
-      a.length = 4 * static_cast<unsigned>(dice_.below(200));
+    if (a.address >= 0x1000 && dice_.one_in(3)) a.length = 4 * static_cast<unsigned>(dice_.below(200));
     a.streaming_width = dice_.one_in(30) ? static_cast<unsigned>(dice_.below(a.length + 1)) : a.length;
     a.byte_enables = dice_.one_in(40);
     buffer_.resize(1024);
@@ -124,7 +127,7 @@ class Abuser {
       if (a.address < w.base || a.address >= w.base + 4 * w.words) continue;
       if (a.address % 4 || a.address + a.length > w.base + 4 * w.words)
         reasons.insert(tlm::TLM_ADDRESS_ERROR_RESPONSE);
-      if (write && (busy_ || !w.writable)) reasons.insert(tlm::TLM_COMMAND_ERROR_RESPONSE);
+      if (busy_ || (write && !w.writable)) reasons.insert(tlm::TLM_COMMAND_ERROR_RESPONSE);
       return reasons;
     }
     reasons.insert(tlm::TLM_ADDRESS_ERROR_RESPONSE);
@@ -137,35 +140,51 @@ class Abuser {
     if (address == HM_REG_CONTROL) return commanded(word(0));
     for (std::uint64_t k = 0; k < a.length / 4; ++k) {
       const std::uint32_t at = static_cast<std::uint32_t>(address + 4 * k), value = word(k);
-      memory_[at] = address == HM_REG_IRQ_STATUS ? memory_[at] & ~value : kept(at, value);
+      if (address == HM_REG_IRQ_TEST)
+        memory_[HM_REG_IRQ_STATUS] |= value & 3;
+      else
+        memory_[at] = address == HM_REG_IRQ_STATUS ? memory_[at] & ~value : kept(at, value);
     }
   }
 
+  /// No time passes here, so a RESET that came with a START never ends before settle().
   void commanded(std::uint32_t bits) {
+    if ((bits & HM_CONTROL_ABORT) && busy_) {
+      aborted_ |= !reset_first_;
+      if (reset_first_) memory_[HM_REG_IRQ_STATUS] |= HM_IRQ_REFUSED;
+    }
     if ((bits & 3) == 0) return;
     if (busy_) {
       memory_[HM_REG_IRQ_STATUS] |= HM_IRQ_REFUSED;
       return;
     }
-    if (bits & HM_CONTROL_RESET) {
+    reset_first_ = (bits & HM_CONTROL_RESET) != 0;
+    resetting_ = (bits & 3) == HM_CONTROL_RESET;
+    if (reset_first_) {
       held_ = 0;
       for (auto& [address, value] : memory_) {
         const auto row = registers_.find(address);
         if (row != registers_.end() && address >= HM_REG_CONTROL) value = row->second.reset;
-        if (address >= HM_WINDOW_BIAS) value = 0;
+        if (in("BIAS", address) || in("OUTPUT", address) || in("WEIGHT", address)) value = 0;
       }
     }
-    if ((bits & HM_CONTROL_START) == 0) return;
     busy_ = true;
     memory_[HM_REG_STATUS] = HM_STATUS_BUSY;
   }
 
+  bool in(const std::string& window, std::uint32_t address) const {
+    for (const WindowRow& w : windows_)
+      if (w.name == window) return w.words > 0 && address >= w.base && address < w.base + 4 * w.words;
+    return false;
+  }
+
   /// What the array keeps of a word.
   std::uint32_t kept(std::uint32_t address, std::uint32_t value) const {
-    if (address < HM_WINDOW_BIAS) return value;
+    if (address == HM_REG_IRQ_ENABLE) return value & 3;
+    if (address < 0x1000) return value;
     const spec::Formats& f = array_.formats;
-    const bool output = address >> 28 == HM_WINDOW_OUTPUT >> 28;
-    const int width = (output ? f.state : address >= HM_WINDOW_WEIGHT ? f.weight : f.bias).width;
+    const bool output = in("OUTPUT", address);
+    const int width = (output ? f.state : in("WEIGHT", address) ? f.weight : f.bias).width;
     std::int64_t code = value % (std::int64_t{1} << width);
     if (code >= std::int64_t{1} << (width - 1)) code -= std::int64_t{1} << width;
     if (output) code = std::clamp(code, -f.state.one_raw(), f.state.one_raw());
@@ -209,12 +228,13 @@ class Abuser {
   const spec::Topology topology_;
   const spec::ArraySpec array_;
   Dut dut_;
-  const std::vector<WindowRow> windows_;
+  std::vector<WindowRow> windows_; ///< that have words
   std::map<std::uint32_t, RegisterRow> registers_;
   std::map<std::uint32_t, std::uint32_t> memory_;
   std::vector<unsigned char> buffer_;
   std::uint64_t held_ = 0;
-  bool busy_ = false;
+  /// resetting_: a RESET alone is at work; reset_first_: what is at work began with one.
+  bool busy_ = false, resetting_ = false, reset_first_ = false, aborted_ = false;
 };
 
 class Abuse : public testing::TestWithParam<int> {};

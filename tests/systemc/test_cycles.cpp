@@ -81,7 +81,7 @@ TEST(Stops, ZeroSweepsAreTakenAsOne) {
         b->dut.start(0, b->promise.job.max_sweeps);
         b->dut.run_until_done();
         EXPECT_EQ(b->dut.read(HM_REG_CYCLES_LO), b->promise.first + b->promise.sweep);
-        EXPECT_EQ(b->dut.read(HM_WINDOW_OUTPUT, 15), b->expected.output());
+        EXPECT_EQ(b->dut.codes(Window::OUTPUT, 15), b->expected.output());
       }
   }
 }

@@ -84,7 +84,7 @@ TEST_P(AroundDone, StartInThatVeryInstantIsRefusedOrARunOfItsOwn) {
   EXPECT_EQ(dut.read(HM_REG_CYCLES_LO), slow_cycles(job, 2));
   ArrayJob both = job;
   both.max_sweeps = 4;
-  EXPECT_EQ(dut.read(HM_WINDOW_OUTPUT, ring.neurons()), run_slow_array(both).output());
+  EXPECT_EQ(dut.codes(Window::OUTPUT, ring.neurons()), run_slow_array(both).output());
 }
 
 std::string order_name(const testing::TestParamInfo<std::tuple<Waking, bool>>& param) {
@@ -103,7 +103,7 @@ class Ends : public testing::TestWithParam<Waking> {
     dut.device.wake(GetParam());
     load(dut, job);
   }
-  Words output() { return dut.read(HM_WINDOW_OUTPUT, ring.neurons()); }
+  Words output() { return dut.codes(Window::OUTPUT, ring.neurons()); }
   Words expected(std::uint32_t sweeps) {
     ArrayJob longer = job;
     longer.max_sweeps = sweeps;
@@ -249,7 +249,7 @@ TEST(SmallArrays, EmptyRowsKeepVAndLoneCellsRelax) {
     duts[k]->start(0, 3);
     duts[k]->run_until_done();
     const ArrayResult expected = run_slow_array(jobs[k]);
-    const Words output = duts[k]->read(HM_WINDOW_OUTPUT, jobs[k].topology.neurons());
+    const Words output = duts[k]->codes(Window::OUTPUT, jobs[k].topology.neurons());
     EXPECT_EQ(output, expected.output());
     EXPECT_EQ(duts[k]->read(HM_REG_CYCLES_LO), expected.cycles);
     EXPECT_EQ(output == jobs[k].start, expected.sweeps == 1); // empty rows converge at once

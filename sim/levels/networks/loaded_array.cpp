@@ -9,8 +9,9 @@ LoadedArray::LoadedArray(ArrayPort& port, const hm_mesh& mesh, const spec::Topol
 
 spec::Relaxation LoadedArray::relax(CellNetwork network, double threshold, std::uint32_t max_sweeps) {
   if (!is_loaded())
-    check(hm_driver_open(&driver_, &port_.bus(), &mesh_, buffer_.data(),
-                         static_cast<std::uint32_t>(buffer_.size())));
+    check_opened(hm_driver_open(&driver_, &port_.bus(), &mesh_, buffer_.data(),
+                                static_cast<std::uint32_t>(buffer_.size())),
+                 driver_);
   hm_network loaded{network.weight.data(), network.bias.data(), network.output.data()};
   hm_relaxation end;
   check(hm_driver_relax(&driver_, &mesh_, &loaded, threshold, max_sweeps, &end));

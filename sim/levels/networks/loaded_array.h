@@ -24,7 +24,7 @@ class LoadedArray {
 
   /// Loads the network and relaxes it from its start. Throws as check() does, here and below.
   spec::Relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
-  bool is_loaded() const { return driver_.bus != nullptr; }
+  bool is_loaded() const { return driver_.line.bus != nullptr; }
 
   // Of what is loaded:
   void put_outputs(const std::vector<double>& outputs);

@@ -128,11 +128,17 @@ void EngineWave::clock() {
   trouble_ = early_end_text(request_);
 }
 
-void EngineWave::ran(const engine::Engine& array) {
+void EngineWave::ran(const engine::Engine& array, bool aborted) {
   const spec::Relaxation& result = array.result();
   now_ = run_began_ + result.cycles;
   total_ += result.cycles;
   if (!stepped_) return;
+  if (aborted) {
+    vcd_.reset();
+    done_ = true;
+    trouble_ = request_.file + ": no wave of a run that was aborted";
+    return;
+  }
   std::vector<std::uint32_t> outputs(array.topology().neurons());
   array.read_outputs(0, outputs.data(), outputs.size());
   bool same = cycles() == result.cycles && array_.result().sweeps == result.sweeps;

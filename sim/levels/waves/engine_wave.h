@@ -28,8 +28,9 @@ class EngineWave {
   /// `stop`.
   void run(const engine::Engine& array, std::uint32_t threshold, std::uint32_t max_sweeps, std::uint64_t bus,
            const std::atomic<bool>& stop);
-  /// `array` has computed it. Throws std::logic_error if that was not the same.
-  void ran(const engine::Engine& array);
+  /// `array` has computed it. Throws std::logic_error if that was not the same; a run that was aborted ends
+  /// the wave, which has shown more than it came to.
+  void ran(const engine::Engine& array, bool aborted);
   void irq(bool level, std::uint64_t bus);
   /// After the last step.
   void finish();

@@ -30,9 +30,9 @@ struct Pair {
         array(("fixed" + std::to_string(seed)).c_str(), job.array, job.topology) {}
 
   void run_and_compare() {
-    dut.write(HM_WINDOW_WEIGHT, job.weight);
-    dut.write(HM_WINDOW_BIAS, job.bias);
-    dut.write(HM_WINDOW_OUTPUT, job.start);
+    dut.put_codes(tests::Window::WEIGHT, job.weight);
+    dut.put_codes(tests::Window::BIAS, job.bias);
+    dut.put_codes(tests::Window::OUTPUT, job.start);
     array.load(job.weight, job.bias, job.start);
     EXPECT_EQ(array.outputs_raw(), within_one(job));
     dut.start(job.threshold, job.max_sweeps);
@@ -40,7 +40,7 @@ struct Pair {
     array.run(job.threshold, job.max_sweeps);
 
     const auto slow = tests::run_slow_array(job);
-    EXPECT_EQ(array.outputs_raw(), dut.read(HM_WINDOW_OUTPUT, job.topology.neurons()));
+    EXPECT_EQ(array.outputs_raw(), dut.codes(tests::Window::OUTPUT, job.topology.neurons()));
     EXPECT_EQ(array.outputs_raw(), slow.output());
     EXPECT_EQ(array.sweeps(), dut.read(HM_REG_SWEEPS));
     EXPECT_EQ(array.cycles(), dut.read(HM_REG_CYCLES_LO));

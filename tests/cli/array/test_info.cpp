@@ -34,8 +34,8 @@ TEST_F(CliInfo, TwoNodesByHand) {
   EXPECT_EQ(row(out, "prepare, once a run"), "22"); // 3 + 18 + 1
   EXPECT_EQ(row(out, "run of n sweeps"), "23 + 22 n");
   EXPECT_EQ(row(out, "load weights, bias, start"), "18 on the bus"); // (1 + 9) + 2 (1 + 3)
-  // F = 15 + 14; I = max(1 + 1, 9) + 2, as 3 products and a bias need two more bits
-  EXPECT_EQ(row(out, "accumulator"), "fixed<40,11,SC_TRN,SC_WRAP> (exact)");
+  // F = 15 + 14; I = 10, as a sum of 3 products and a bias lies within 3 + 256
+  EXPECT_EQ(row(out, "accumulator"), "fixed<39,10,SC_TRN,SC_WRAP> (exact)");
   EXPECT_EQ(row(out, "pinned nodes"), "1: no cell, 3 neurons fewer");
   EXPECT_EQ(row(out, "springs to pinned nodes"), "1: in the bias, no link");
 }
@@ -55,8 +55,12 @@ TEST_F(CliInfo, Flag400ByHand) {
   EXPECT_EQ(row(out, "run of n sweeps"), "47 + 373 n");
   EXPECT_EQ(row(out, "time of a sweep"), "3.73 us");
   EXPECT_EQ(row(out, "load weights, bias, start"),
-            "30,993 on the bus");             // 1 + 9 (380 + 2 * 1405) + 2 (1 + 1140)
-  EXPECT_EQ(row(out, "weights"), "56.1 KiB"); // 28,710 words of 16 bits
+            "30,993 on the bus");     // 1 + 9 (380 + 2 * 1405) + 2 (1 + 1140)
+  EXPECT_EQ(row(out, "RESET"), "27"); // the longest row
+  EXPECT_EQ(row(out, "registers and windows"), "256 KiB");
+  EXPECT_EQ(row(out, "window WEIGHT"), "28,710 words at 0x20000");
+  EXPECT_EQ(row(out, "window OUTPUT"), "1,140 words at 0xa000");
+  EXPECT_EQ(row(out, "weights"), "56.1 KiB");                                 // 28,710 words of 16 bits
   EXPECT_EQ(row(out, "springs to pinned nodes"), "58: in the bias, no link"); // 20 + 38
   EXPECT_EQ(row(out, "springs between pinned nodes"), "19: no link");
 }
@@ -109,6 +113,28 @@ TEST_F(CliInfo, TellsElementsThatNeverWork) {
       "hopmesh: note: array.elements: 2 elements never work: 3 are more than the 1 neuron of the largest "
       "phase\n");
   EXPECT_EQ(good("solve two-neurons --set array.elements=1").err, "");
+}
+
+/// Weights of 16 bits go in pairs; a bias and a state of 24 do not, and it is told.
+TEST_F(CliInfo, TellsWhatPackingDoes) {
+  const std::string out = good("info flag-400 --set array.packing=true").out;
+  EXPECT_EQ(row(out, "window WEIGHT"), "14,355 words at 0x10000, 2 codes each");
+  EXPECT_EQ(row(out, "window BIAS"),
+            "1,140 words at 0x8000, one code each: 24 bits are more than half a word");
+  EXPECT_EQ(row(out, "load weights, bias, start"), "16,638 on the bus"); // 1 + 14,355 + 2 (1 + 1140)
+  const std::string byte = good("info flag-400 --array byte --set array.packing=true").out;
+  EXPECT_EQ(row(byte, "window WEIGHT"), "7,178 words at 0x10000, 4 codes each"); // 28,710 / 4, rounded up
+  EXPECT_EQ(row(byte, "window BIAS"), "570 words at 0x8000, 2 codes each");
+  EXPECT_EQ(row(byte, "window OUTPUT"), "285 words at 0x9000, 4 codes each");
+}
+
+TEST_F(CliInfo, TellsThatPackingHasNothingToPack) {
+  const Finished wide = hopmesh("info flag-400 --set array.packing=true --set formats.weight=fixed<20,1>");
+  EXPECT_EQ(wide.exit_code, 0);
+  EXPECT_EQ(wide.err,
+            "hopmesh: note: --set: array.packing: no effect here; it counts only with a weight, bias "
+            "or state of at most 16 bits\n");
+  EXPECT_EQ(row(wide.out, "load weights, bias, start"), "30,993 on the bus");
 }
 
 TEST_F(CliInfo, FollowsTheScene) {

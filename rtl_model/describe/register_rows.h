@@ -1,0 +1,71 @@
+// The table of firmware/registers.h as rows, and the descriptions that other tools take of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hopmesh::describe {
+
+/// As a host has it.
+enum class Access { RO, RW, WO, W1C };
+
+struct FieldRow {
+  std::string name;
+  int lowest = 0, width = 32; ///< bits
+  Access access = Access::RO;
+  std::string meaning;
+};
+
+struct RegisterRow {
+  std::string name;
+  std::uint32_t offset = 0; ///< bytes
+  Access access = Access::RO;
+  std::uint32_t reset = 0;
+  bool as_built = false; ///< a property of the array at hand, which has no reset
+  std::string meaning;
+  std::vector<FieldRow> fields; ///< from the lowest bit on
+};
+
+struct WindowRow {
+  std::string name;
+  Access access = Access::RO;
+  std::string meaning;
+};
+
+/// In the order of their offsets.
+std::vector<RegisterRow> register_rows();
+/// In the order in which they lie.
+std::vector<WindowRow> window_rows();
+
+/// "2.0"
+std::string version_text();
+/// "RO", "RW", "WO" or "W1C".
+const char* name_of(Access access);
+/// 0x and at least so many digits.
+std::string hex(std::uint32_t value, int digits = 1);
+
+// Tables of docs/hardware/registers.md.
+std::string register_table();
+std::string field_table();
+std::string window_table();
+
+/// A description: how people name it, what its file is called, and its text.
+struct Format {
+  const char *name, *file;
+  std::string (*text)();
+};
+
+std::string markdown_text();
+std::string c_text();
+std::string system_rdl_text();
+std::string ip_xact_text();
+std::string svd_text();
+
+inline constexpr Format formats[] = {{"markdown", "hopmesh_registers.md", markdown_text},
+                                     {"c", "hopmesh_registers.h", c_text},
+                                     {"systemrdl", "hopmesh_registers.rdl", system_rdl_text},
+                                     {"ip-xact", "hopmesh_registers.xml", ip_xact_text},
+                                     {"svd", "hopmesh_registers.svd", svd_text}};
+
+} // namespace hopmesh::describe
