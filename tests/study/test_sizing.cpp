@@ -92,11 +92,11 @@ TEST_F(SizingTest, AThresholdDoublesAndOverridesSaySo) {
 }
 
 // Two nodes, one of them pinned: 3 neurons of 3 taps. By hand, default array with one lane: 16 * 16 in the
-// lane, 24 * 18 for R u, and s times 18 bits, s having 15 + 14 bits behind its point and 9 + 2 before it.
+// lane, 24 * 18 for R u, and s times 18 bits, s having 15 + 14 bits behind its point and 10 before it.
 TEST_F(SizingTest, MultiplierBitsByHand) {
   inputs.scene = grid_scene(1, 2);
   const BuiltMesh two(inputs.scene);
-  EXPECT_EQ(multiplier_bits(two, spec::default_array()), 3u * (16 * 16 + 24 * 18 + 40 * 18));
+  EXPECT_EQ(multiplier_bits(two, spec::default_array()), 3u * (16 * 16 + 24 * 18 + 39 * 18));
   spec::ArraySpec array = spec::descent_array();
   array.lanes = 3;
   EXPECT_EQ(multiplier_bits(two, array), 3u * (3 * 16 * 16 + 16 * 16));
