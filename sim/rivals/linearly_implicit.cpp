@@ -1,6 +1,7 @@
-// One linearly implicit Euler step, solved by conjugate gradients that are preconditioned by the nodes' 3 x 3
-// blocks (Baraff and Witkin 1998). They linearise where the step begins; here, as in the array, it is where
-// the step would end with the acceleration of the step before, which is nearer to the answer.
+// The linearly implicit Euler step of Baraff and Witkin (1998): linearised once, solved by conjugate
+// gradients that are preconditioned by the nodes' 3 x 3 blocks. They linearise where the step begins; here,
+// as in the array, it is where the step would end with the acceleration of the step before, which is nearer
+// to the answer.
 #include "sim/rivals/all_integrators.h"
 #include "sim/rivals/tangent.h"
 
