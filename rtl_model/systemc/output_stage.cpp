@@ -39,7 +39,7 @@ Wide OutputStage::exact_ratio(std::int64_t sum_raw) const {
 // bound at once, and stays where s is zero.
 void OutputStage::normalise(std::int64_t sum_raw) {
   if (path_.binary) {
-    drive_ = limited(sum_raw, 1) * path_.formats.drive.one_raw();
+    ratio_ = drive_ = limited(sum_raw, 1) * path_.formats.drive.one_raw();
     return;
   }
   const auto mode = path_.formats.drive.rounding;
@@ -50,12 +50,14 @@ void OutputStage::normalise(std::int64_t sum_raw) {
     ratio = exact_ratio(sum_raw);
   else if (norm_ != 0)
     ratio = round_places<Wide>(Wide{sum_raw} * reciprocal_, reciprocal_places_, mode);
-  drive_ = limited(into_range(ratio, path_.formats.drive), path_.formats.drive.one_raw());
+  ratio_ = into_range(ratio, path_.formats.drive);
+  drive_ = limited(ratio_, path_.formats.drive.one_raw());
 }
 
 void OutputStage::bias_by_r() {
-  const std::int64_t one = path_.formats.state.one_raw(), r = drive_ >= 0 ? one - state_ : one + state_;
-  delta_ = round_places<std::int64_t>(r * drive_, path_.formats.drive.fraction_bits(),
+  const std::int64_t one = path_.formats.state.one_raw();
+  pull_ = drive_ >= 0 ? one - state_ : one + state_;
+  delta_ = round_places<std::int64_t>(product_raw(), path_.formats.drive.fraction_bits(),
                                       path_.formats.state.rounding);
 }
 

@@ -22,10 +22,16 @@ class OutputStage : public sc_core::sc_module {
   std::int64_t publish();               ///< V <- V + delta; returns |delta|
 
   std::int64_t state_raw() const { return state_; }
+  std::int64_t ratio_raw() const { return ratio_; } ///< u before the limiter
   std::int64_t drive_raw() const { return drive_; }
+  std::int64_t pull_raw() const { return pull_; }             ///< R
+  std::int64_t product_raw() const { return pull_ * drive_; } ///< R u
   std::int64_t change_raw() const { return delta_; }
   std::int64_t reciprocal_raw() const { return reciprocal_; } ///< of the last N that was not zero
-  std::int32_t link_raw() const;                              ///< Q[V -> link]
+  int reciprocal_places() const {
+    return reciprocal_places_;
+  }                              ///< s r * 2^-places counts in the drive's place
+  std::int32_t link_raw() const; ///< Q[V -> link]
   /// A value from the host: cut to the format's width, then held within [-1, 1].
   void load(std::int32_t raw);
 
@@ -35,7 +41,7 @@ class OutputStage : public sc_core::sc_module {
   Wide exact_ratio(std::int64_t sum_raw) const;
 
   const Datapath& path_;
-  std::int64_t norm_ = 0, reciprocal_ = 0, drive_ = 0, delta_ = 0, state_ = 0;
+  std::int64_t norm_ = 0, reciprocal_ = 0, ratio_ = 0, drive_ = 0, pull_ = 0, delta_ = 0, state_ = 0;
   int reciprocal_places_ = 0;
 };
 
