@@ -42,7 +42,7 @@ Wide OutputStage::exact_ratio(std::int64_t sum_raw, std::int64_t norm) const {
 // bound at once, and stays where s is zero.
 void OutputStage::normalise(std::int64_t sum_raw, std::size_t place) {
   if (path_.binary) {
-    drive_ = limited(sum_raw, 1) * path_.formats.drive.one_raw();
+    ratio_ = drive_ = limited(sum_raw, 1) * path_.formats.drive.one_raw();
     return;
   }
   const Memory& of = memory_[place];
@@ -54,14 +54,16 @@ void OutputStage::normalise(std::int64_t sum_raw, std::size_t place) {
     ratio = exact_ratio(sum_raw, of.norm);
   else if (of.norm != 0)
     ratio = round_places<Wide>(Wide{sum_raw} * of.reciprocal, of.reciprocal_places, mode);
-  drive_ = limited(into_range(ratio, path_.formats.drive), path_.formats.drive.one_raw());
+  ratio_ = into_range(ratio, path_.formats.drive);
+  drive_ = limited(ratio_, path_.formats.drive.one_raw());
 }
 
 void OutputStage::bias_by_r(std::int64_t drive_raw, std::size_t place) {
   const std::int64_t one = path_.formats.state.one_raw(), state = memory_[place].state;
-  const std::int64_t r = drive_raw >= 0 ? one - state : one + state;
-  delta_ = round_places<std::int64_t>(r * drive_raw, path_.formats.drive.fraction_bits(),
-                                      path_.formats.state.rounding);
+  pull_ = drive_raw >= 0 ? one - state : one + state;
+  product_ = pull_ * drive_raw;
+  delta_ =
+      round_places<std::int64_t>(product_, path_.formats.drive.fraction_bits(), path_.formats.state.rounding);
 }
 
 std::int64_t OutputStage::publish(std::size_t place) {

@@ -26,10 +26,15 @@ class OutputStage : public sc_core::sc_module {
   std::int64_t publish(std::size_t place = 0); ///< V <- V + delta; returns |delta|
 
   std::int64_t state_raw(std::size_t place = 0) const { return memory_[place].state; }
+  std::int64_t ratio_raw() const { return ratio_; } ///< u before the limiter
   std::int64_t drive_raw() const { return drive_; }
+  std::int64_t pull_raw() const { return pull_; }       ///< R
+  std::int64_t product_raw() const { return product_; } ///< R u
   std::int64_t change_raw() const { return delta_; }
   /// Of the last N that was not zero.
   std::int64_t reciprocal_raw(std::size_t place = 0) const { return memory_[place].reciprocal; }
+  /// s r * 2^-places counts in the drive's place.
+  int reciprocal_places(std::size_t place = 0) const { return memory_[place].reciprocal_places; }
   std::int32_t link_raw(std::size_t place = 0) const; ///< Q[V -> link]
   /// A value from the host: cut to the format's width, then held within [-1, 1].
   void load(std::int32_t raw, std::size_t place = 0);
@@ -47,7 +52,7 @@ class OutputStage : public sc_core::sc_module {
   Wide exact_ratio(std::int64_t sum_raw, std::int64_t norm) const;
 
   const Datapath& path_;
-  std::int64_t drive_ = 0, delta_ = 0;
+  std::int64_t ratio_ = 0, drive_ = 0, pull_ = 0, product_ = 0, delta_ = 0;
   Memory only_; ///< of a stage that has a single neuron: beside its registers
   std::vector<Memory> many_;
   Memory* const memory_; ///< one or the other, by place

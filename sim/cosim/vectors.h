@@ -2,11 +2,10 @@
 // fill in and be judged by. docs/use/test-vectors.md describes the file.
 #pragma once
 
-#include "rtl_model/spec/array_keys.h"
 #include "sim/cosim/divergence.h"
+#include "sim/cosim/vector_lines.h"
 #include "sim/files/output_file.h"
 
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -57,31 +56,15 @@ class VectorReader {
   AnswerLine answer();
 
  private:
-  using Words = std::vector<std::string>;
-  bool read_line();
-  Words split() const;
-  Words expect(const std::string& key, const std::string& shape);
-  [[noreturn]] void fail(const std::string& found, const std::string& expected,
-                         const std::string& nearest = "") const;
-  std::int64_t number(const std::string& word, std::int64_t least, std::int64_t most,
-                      const std::string& what) const;
   std::int32_t code(const std::string& word) const;
   void skip_answers();
-  void read_array(spec::ArraySpec& array);
   void read_links(spec::Topology& topology);
   void check_links(const spec::Topology& topology, const std::vector<int>& lines) const;
-  void check_rules(const spec::ArraySpec& array, const spec::Topology& topology) const;
   void read_neurons(ArrayJob& job);
   void read_phases(const ArrayJob& job);
 
-  friend struct KeyLine;
-
-  const std::string path_;
+  VectorLines lines_;
   const spec::ArrayTable table_;
-  std::ifstream file_;
-  std::string text_; ///< of the line at hand
-  int line_ = 0;
-  std::vector<std::pair<std::string, int>> key_lines_;
   spec::Phases phases_;
   std::uint64_t next_sweep_ = 1, next_phase_ = 0;
   bool in_answers_ = false;

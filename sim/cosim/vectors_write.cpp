@@ -8,19 +8,6 @@ namespace hopmesh::cosim {
 
 namespace {
 
-std::string array_text(const ArrayJob& job, spec::ArrayTable table) {
-  spec::ArraySpec array = job.array;
-  std::string text;
-  for (const spec::ArrayKey& key : spec::answer_keys(table(array))) {
-    const bool exact = std::holds_alternative<spec::Accumulator>(key.place) && array.exact_accumulator;
-    if (exact)
-      text += fmt::format("# the exact accumulator is {}\n",
-                          spec::accumulator_format(array, job.topology.most_taps()).text());
-    text += fmt::format("{} {}\n", key.word(), key.value());
-  }
-  return text;
-}
-
 std::string links_text(const spec::Topology& t) {
   std::string text = fmt::format("cells {}\nneurons_per_cell {}\n", t.cells(), t.neurons_per_cell);
   for (std::size_t c = 0; c < t.cells(); ++c) {
@@ -67,7 +54,7 @@ void VectorWriter::add(const VectorCase& a_case, const hm_bus* bus) {
 void VectorWriter::write_job(const VectorCase& a_case) {
   const ArrayJob& job = a_case.job;
   file_.write(fmt::format("\ncase {}\n", a_case.name));
-  file_.write(array_text(job, table_));
+  file_.write(array_lines(job.array, job.topology.most_taps(), table_));
   file_.write(links_text(job.topology));
   file_.write(fmt::format("threshold {}\nmax_sweeps {}\n", job.threshold, job.max_sweeps));
   for (std::size_t k = 0; k < job.topology.neurons(); ++k) file_.write(neuron_text(job, k));

@@ -15,11 +15,13 @@ int bits_of_norm(const NeuronPlan& plan) {
 } // namespace
 
 NeuronPlan::NeuronPlan(const spec::ArraySpec& array, const spec::Topology& topology)
-    : Points(spec::points_of(spec::built_formats(array, topology.most_taps()))),
-      formats(spec::built_formats(array, topology.most_taps())), schedule(array.schedule),
-      normaliser(array.normaliser), lanes(array.lanes), reciprocal_bits(array.reciprocal_bits),
-      neurons_per_cell(topology.neurons_per_cell), exact(array.exact_accumulator),
-      binary(array.output == spec::Output::binary), most_taps(topology.most_taps()),
+    : NeuronPlan(array, topology.most_taps(), topology.neurons_per_cell) {}
+
+NeuronPlan::NeuronPlan(const spec::ArraySpec& array, std::size_t taps, int neurons_in_cell)
+    : Points(spec::points_of(spec::built_formats(array, taps))), formats(spec::built_formats(array, taps)),
+      schedule(array.schedule), normaliser(array.normaliser), lanes(array.lanes),
+      reciprocal_bits(array.reciprocal_bits), neurons_per_cell(neurons_in_cell),
+      exact(array.exact_accumulator), binary(array.output == spec::Output::binary), most_taps(taps),
       norm_bits(bits_of_norm(*this)), multiplier_places(norm_bits + reciprocal_bits - 2 - ratio_up),
       one_state(formats.state.one_raw()), one_drive(formats.drive.one_raw()),
       one_link(formats.link.one_raw()) {}

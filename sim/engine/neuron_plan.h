@@ -8,6 +8,8 @@ namespace hopmesh::engine {
 
 struct NeuronPlan : spec::Points {
   NeuronPlan(const spec::ArraySpec& array, const spec::Topology& topology);
+  /// Of an array whose longest row has so many taps.
+  NeuronPlan(const spec::ArraySpec& array, std::size_t taps, int neurons_in_cell);
 
   spec::Formats formats; ///< with the accumulator as built
   spec::Schedule schedule;

@@ -1,6 +1,8 @@
 #include "sim/levels/level.h"
 
+#include "rtl_model/systemc/open_neuron.h"
 #include "sim/engine/choose.h"
+#include "sim/engine/generic/open_neuron.h"
 #include "sim/input/input_error.h"
 #include "sim/input/standard_streams.h"
 #include "sim/levels/engine_port.h"
@@ -36,6 +38,11 @@ std::unique_ptr<ArrayPort> make_engine_port(const spec::ArraySpec& array, const 
   return port;
 }
 
+template <typename Neuron> OpenNeuron lay_open(const spec::ArraySpec& array, std::size_t taps) {
+  const auto neuron = std::make_shared<Neuron>(array, taps);
+  return [neuron](const spec::FiringInputs& inputs) { return neuron->fire(inputs); };
+}
+
 // Every kernel, two threads, and sweeps that follow each other. The first kernel takes any array.
 std::vector<Variant> engine_variants() {
   std::vector<Variant> all;
@@ -50,6 +57,7 @@ Level engine_row() {
   Level row{"engine", Kind::array, "the array, by a native program"};
   row.make_port = make_engine_port;
   row.variants = engine_variants();
+  row.open_neuron = lay_open<engine::OpenNeuron>;
   row.can_wave = true;
   row.checked = false; // the reference would take most of the time
   return row;
@@ -62,6 +70,7 @@ Level systemc_row(const std::string& name, const std::string& words, systemc::Wa
     return std::make_unique<SystemcPort>(sc_core::sc_gen_unique_name("array"), array, topology, waking,
                                          request.wave, stop_requested);
   };
+  row.open_neuron = lay_open<systemc::OpenNeuron>;
   row.can_wave = true;
   row.made_ahead = true; // SystemC elaborates once a process
   return row;

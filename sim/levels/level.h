@@ -4,6 +4,7 @@
 // What every level must do is no column: a run of any of them can be resumed (Mover::restore).
 #pragma once
 
+#include "rtl_model/spec/firing.h"
 #include "sim/engine/engine.h"
 #include "sim/levels/array_mover.h"
 #include "sim/levels/prepared.h"
@@ -26,6 +27,9 @@ struct PortRequest {
   bool all_threads = false; ///< as many as asked for, even where fewer would be faster
   bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
 };
+
+/// A neuron of an array whose longest row has so many taps, laid open: any firing, one after the other.
+using OpenNeuron = std::function<spec::FiringSteps(const spec::FiringInputs&)>;
 
 /// A setting in which a level computes the same bits.
 struct Variant {
@@ -55,6 +59,8 @@ struct Level {
   /// Makes its motion of a scene; empty where make_port is not: an array moves a scene by the firmware.
   std::function<std::unique_ptr<Mover>(const Prepared&)> make_mover = nullptr;
   std::vector<Variant> variants = {{}};
+  /// Lays one of its neurons open; empty where it cannot.
+  std::function<OpenNeuron(const spec::ArraySpec&, std::size_t taps)> open_neuron = nullptr;
 
   bool can_wave = false;    ///< its registers can be written to a wave
   bool checked = true;      ///< `run` asks the reference beside every step, unless told otherwise

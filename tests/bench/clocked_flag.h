@@ -2,6 +2,7 @@
 // same array.
 #pragma once
 
+#include "sim/engine/clocked/clocked.h"
 #include "sim/levels/waves/clocked_vcd.h"
 #include "tests/bench/grid_network.h"
 

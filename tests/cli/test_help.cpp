@@ -97,7 +97,8 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
   expect_flags("info", {"toml"});
   expect_flags("budget", {"steps", "time", "rest-sweeps", "out"});
   expect_flags("size", {"error", "against", "time-per-step", "steps", "out"});
-  expect_flags("vectors", {"step", "sweeps", "random", "seed", "out", "blank", "check", "level"});
+  expect_flags("vectors", {"step", "sweeps", "random", "seed", "neurons", "format", "taps", "out", "blank",
+                           "check", "level"});
 }
 
 TEST_F(CliHelp, OfStudiesTellsEveryFlag) {

@@ -2,6 +2,8 @@
 // docs/use/test-vectors.md, docs/hardware/datapath.md and docs/hardware/cycles.md alone; it shares no line
 // with the rest of the tree, and every number is an exact fraction until a register takes it.
 //   other_core BLANK FILLED [K]     K: the K-th output (from 1) comes out one too high, as from a faulty core
+#include "tests/other_core/exact_format.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -12,67 +14,7 @@
 
 namespace {
 
-using Wide = __int128;
-
-struct Format {
-  int width = 0, fraction = 0;
-  std::string rounding = "SC_TRN", overflow = "SC_WRAP";
-};
-
-Format format_of(const std::string& text) { // fixed<W,I,Q,O>
-  std::string spaced = text.substr(text.find('<') + 1);
-  for (char& c : spaced)
-    if (c == ',' || c == '>') c = ' ';
-  std::istringstream in(spaced);
-  Format f;
-  int integer_bits = 0;
-  in >> f.width >> integer_bits >> f.rounding >> f.overflow;
-  f.fraction = f.width - integer_bits;
-  return f;
-}
-
-// a / b as a whole number, b > 0.
-Wide rounded(Wide a, Wide b, const std::string& mode) {
-  Wide q = a / b, r = a % b;
-  if (r < 0) q -= 1, r += b;
-  const bool more = 2 * r > b, tie = 2 * r == b;
-  bool up = more;
-  if (mode == "SC_TRN") up = false;
-  if (mode == "SC_TRN_ZERO") up = a < 0 && r != 0;
-  if (mode == "SC_RND") up = more || tie;
-  if (mode == "SC_RND_ZERO") up = more || (tie && a < 0);
-  if (mode == "SC_RND_INF") up = more || (tie && a > 0);
-  if (mode == "SC_RND_CONV") up = more || (tie && q % 2 != 0);
-  return up ? q + 1 : q;
-}
-
-Wide in_range(Wide x, const Format& f) {
-  const Wide top = (Wide{1} << (f.width - 1)) - 1, bottom = f.overflow == "SC_SAT_SYM" ? -top : -top - 1;
-  if (f.overflow == "SC_WRAP") {
-    const Wide turn = Wide{1} << f.width;
-    x = ((x % turn) + turn) % turn;
-    return x > top ? x - turn : x;
-  }
-  if (x >= bottom && x <= top) return x;
-  return f.overflow == "SC_SAT_ZERO" ? 0 : x > top ? top : bottom;
-}
-
-// a / b * 2^places as a code.
-Wide quantised(Wide a, Wide b, int places, const Format& f) {
-  if (places >= 0)
-    a *= Wide{1} << places;
-  else
-    b *= Wide{1} << -places;
-  return in_range(rounded(a, b, f.rounding), f);
-}
-
-Wide magnitude(Wide x) {
-  return x < 0 ? -x : x;
-}
-
-Wide low_bits(long word, int width) {
-  return in_range(word, Format{width, 0, "SC_TRN", "SC_WRAP"});
-}
+using namespace other;
 
 struct Core {
   std::string schedule, output, normaliser;

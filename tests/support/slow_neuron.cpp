@@ -34,8 +34,7 @@ std::int64_t divide(const spec::Formats& f, const spec::NumberFormat& accumulato
 std::int64_t multiply_by_reciprocal(const spec::ArraySpec& array, const spec::NumberFormat& accumulator,
                                     std::int64_t s, Wide n) {
   const int scale = bit_length(n) + array.reciprocal_bits - 2;
-  const Wide r = cut_quotient(Wide{1} << scale, n).whole;
-  const __int128 product = multiply(s, static_cast<std::int64_t>(r));
+  const __int128 product = multiply(s, reciprocal_of(array, n));
   const int fraction = accumulator.fraction_bits() - static_cast<int>(row_unit(array.formats)) + scale;
   return quantise_code(product, fraction, array.formats.drive);
 }
@@ -74,8 +73,13 @@ Wide row_sum(const spec::ArraySpec& array, const std::vector<std::int64_t>& weig
   return n;
 }
 
-std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,
-                   Wide n) {
+std::int64_t reciprocal_of(const spec::ArraySpec& array, Wide n) {
+  return static_cast<std::int64_t>(
+      cut_quotient(Wide{1} << (bit_length(n) + array.reciprocal_bits - 2), n).whole);
+}
+
+std::int64_t unlimited_drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator,
+                             std::int64_t s, Wide n) {
   const spec::Formats& f = array.formats;
   const std::int64_t one = std::int64_t{1} << f.drive.fraction_bits();
   if (array.output == spec::Output::binary) return s == 0 ? 0 : s > 0 ? one : -one;
@@ -86,6 +90,13 @@ std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accum
     u = divide(f, accumulator, s, n);
   else if (n != 0)
     u = multiply_by_reciprocal(array, accumulator, s, n);
+  return u;
+}
+
+std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,
+                   Wide n) {
+  const std::int64_t one = std::int64_t{1} << array.formats.drive.fraction_bits();
+  const std::int64_t u = unlimited_drive(array, accumulator, s, n);
   return u > one ? one : u < -one ? -one : u;
 }
 

@@ -18,6 +18,12 @@ std::int64_t accumulate(const spec::ArraySpec& array, const spec::NumberFormat& 
 /// N of a row, in units of 2^-max(F_weight, F_bias).
 Wide row_sum(const spec::ArraySpec& array, const std::vector<std::int64_t>& weight, std::int64_t bias);
 
+/// u before the limiter, a code of the drive.
+std::int64_t unlimited_drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator,
+                             std::int64_t s, Wide n);
+/// r of a row sum above 0.
+std::int64_t reciprocal_of(const spec::ArraySpec& array, Wide n);
+
 /// u, limited; sign(s) where outputs are binary. `n` is row_sum; the prescaled normaliser does not look at
 /// it.
 std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,

@@ -49,7 +49,7 @@ std::string command_of(const FuzzOptions& o, std::uint64_t first) {
 }
 
 // Small enough to be read, in a file that shows it again.
-int tell(const FuzzOptions& o, const Ways& all, const cosim::Finding& finding) {
+int tell_finding(const FuzzOptions& o, const Ways& all, const cosim::Finding& finding) {
   fmt::print("case {} of seed {}: {}\n", finding.number, o.seed, finding.text);
   const std::filesystem::path file =
       std::filesystem::path(o.out) / fmt::format("seed-{}-case-{}.txt", o.seed, finding.number);
@@ -78,7 +78,7 @@ int campaign(const FuzzOptions& o, const Ways& all) {
   const double rate = r.seconds > 0 ? static_cast<double>(r.cases) / r.seconds : 0;
   fmt::print("seed {}, cases {} to {}: {} equal, {} different; {:.1f} s of wall time, {:.0f} cases/s\n",
              o.seed, o.first, r.next, grouped(r.cases), r.finding ? 1 : 0, r.seconds, rate);
-  if (r.finding) return tell(o, all, *r.finding);
+  if (r.finding) return tell_finding(o, all, *r.finding);
   if (!r.interrupted) return done;
   fmt::print("interrupted; to go on: {}\n", command_of(o, r.next));
   return interrupted;

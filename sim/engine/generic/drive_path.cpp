@@ -80,6 +80,10 @@ void DrivePath::drives(const Rows& rows, const std::int64_t* sum, std::int64_t* 
 }
 
 std::int64_t DrivePath::drive(const Rows& row, std::int64_t sum) const {
+  return std::min(std::max(unlimited_drive(row, sum), -plan_.one_drive), plan_.one_drive);
+}
+
+std::int64_t DrivePath::unlimited_drive(const Rows& row, std::int64_t sum) const {
   if (plan_.binary) return sum > 0 ? plan_.one_drive : sum < 0 ? -plan_.one_drive : 0;
   const std::int64_t norm = *row.norm;
   const int up = plan_.ratio_up;
@@ -92,7 +96,7 @@ std::int64_t DrivePath::drive(const Rows& row, std::int64_t sum) const {
     u = round_quotient<Int128>(sum, Int128{norm} << -up, rule_);
   else if (norm != 0)
     u = round_quotient<Int128>(shifted_up<Int128>(sum, up), norm, rule_);
-  return std::min(std::max(limited(u, limit_), -plan_.one_drive), plan_.one_drive);
+  return limited(u, limit_);
 }
 
 } // namespace hopmesh::engine

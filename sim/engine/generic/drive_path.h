@@ -28,6 +28,8 @@ class DrivePath {
   void drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const;
   /// The limited drive of one row.
   std::int64_t drive(const Rows& row, std::int64_t sum) const;
+  /// What the limiter holds within [-1, 1]: a code of the drive.
+  std::int64_t unlimited_drive(const Rows& row, std::int64_t sum) const;
 
  private:
   bool divides_narrowly() const;
