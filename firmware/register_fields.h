@@ -34,6 +34,9 @@
   HM_FORMAT_FIELDS(X, CAP_FORMAT_LINK)                                                                       \
   HM_FORMAT_FIELDS(X, CAP_FORMAT_ACCUMULATOR)                                                                \
   HM_WHOLE_WORD(X, CAP_OUTPUT, RO)                                                                           \
+  HM_WHOLE_WORD(X, CAP_ELEMENTS, RO)                                                                         \
+  HM_WHOLE_WORD(X, CAP_STAGES, RO)                                                                           \
+  HM_WHOLE_WORD(X, CAP_PIPELINE, RO)                                                                         \
   X(CAP_PACKING, BIAS, 0, 8, RO, "codes in a word of BIAS")                                                  \
   X(CAP_PACKING, OUTPUT, 8, 8, RO, "codes in a word of OUTPUT")                                              \
   X(CAP_PACKING, WEIGHT, 16, 8, RO, "codes in a word of WEIGHT")                                             \

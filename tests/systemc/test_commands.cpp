@@ -260,7 +260,7 @@ TEST(Packing, LeavesWideCodesAsTheyAre) {
   EXPECT_EQ(dut.read(dut.at(Window::BIAS), 12), biases);
   for (std::size_t i = 0; i < 12; ++i)
     for (std::size_t tap = 0; tap < 9; ++tap)
-      ASSERT_EQ(dut.device.cells.neuron(i).accumulator.weight(tap), weights[9 * i + tap]);
+      ASSERT_EQ(dut.device.cells.weight(i, tap), weights[9 * i + tap]);
 }
 
 } // namespace

@@ -93,7 +93,7 @@ std::size_t column_named(const std::string& name) {
 
 FiringRow row_of(const Firing& f, const NeuronShape& shape) {
   const spec::FiringSteps& s = f.steps;
-  const auto whole = [](auto x) { return std::vector<Cell>{static_cast<std::int64_t>(x)}; };
+  const auto whole = [](auto x) { return std::vector<Cell>(1, static_cast<std::int64_t>(x)); };
   std::vector<Cell> sums(s.sum.begin(), s.sum.end());
   sums.resize(shape.beats + 1, s.sum.empty() ? Cell() : s.sum.back());
   return {whole(f.sweep),
