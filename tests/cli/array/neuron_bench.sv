@@ -30,7 +30,7 @@ module neuron_bench;
     off = n == fault_firing && stage == fault_stage ? 1 : 0;
   endfunction
 
-  // One tap a beat, or several: sums after each beat.
+  // Sums after each beat, of one tap or several.
   task accumulate;
     begin
       s = longint'(bias[n]) <<< (ACCUMULATOR_FRACTION - BIAS_FRACTION);
