@@ -87,7 +87,10 @@ std::string preset_table() {
     for (spec::ArraySpec& a : presets) {
       const auto key = spec::array_keys(a)[row];
       differ |= key.value() != spec::array_keys(presets[0])[row].value();
-      cells += " `\"" + key.value() + "\"` |";
+      const bool number =
+          std::holds_alternative<int*>(key.place) || std::holds_alternative<double*>(key.place);
+      const std::string quotes = number ? "" : "\"";
+      cells += " `" + quotes + key.value() + quotes + "` |";
     }
     if (differ) table += "| `" + spec::array_keys(presets[0])[row].name + "` |" + cells + "\n";
   }
