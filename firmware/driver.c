@@ -98,12 +98,19 @@ static int flush(stream* s) {
   return HM_OK;
 }
 
+static uint32_t count_vanished(const double* values, const uint32_t* words, uint32_t count) {
+  uint32_t vanished = 0;
+  for (uint32_t k = 0; k < count; ++k) vanished += (uint32_t)((values[k] != 0) & (words[k] == 0));
+  return vanished;
+}
+
 /* As many values as there are, in bursts of a full buffer. */
 static int put(stream* s, const double* values, uint32_t count) {
   hm_driver* d = s->driver;
   while (count > 0) {
     const uint32_t room = d->buffer_words - s->waiting, part = count < room ? count : room;
     d->clipped += hm_codes(values, part, s->scale, s->format, d->buffer + s->waiting);
+    d->vanished += count_vanished(values, d->buffer + s->waiting, part);
     s->waiting += part;
     values += part;
     count -= part;
@@ -225,10 +232,11 @@ static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* networ
 }
 
 static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* network) {
-  const uint32_t clipped = d->clipped; /* an output is never scaled: it cannot clip what the network says */
+  const uint32_t clipped = d->clipped, vanished = d->vanished; /* outputs are no part of either */
   stream outputs = open_stream(d, HM_WINDOW_OUTPUT, &d->state, 0);
   TRY(put(&outputs, network->output, hm_neuron_count(mesh)));
   d->clipped = clipped;
+  d->vanished = vanished;
   return flush(&outputs);
 }
 
@@ -276,7 +284,7 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
   d->shift = prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
-  d->clipped = 0;
+  d->clipped = d->vanished = 0;
   uint32_t status;
   TRY(read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;

@@ -33,7 +33,8 @@ struct StepRow {
   double alternation = 0;
   double input_left = 0;           ///< see sim/levels/left_over.h
   std::optional<double> fall_left; ///< where the reference was asked or answers itself
-  std::uint64_t bus_cycles = 0, clipped = 0;
+  std::optional<double> fall_seen; ///< of it, so much at least: LeftOver
+  std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;
 };
@@ -41,6 +42,7 @@ struct StepRow {
 /// A figure that stands in its cell as 16 hexadecimal digits.
 struct HashFigure {
   std::uint64_t StepRow::*member;
+  bool operator==(const HashFigure& other) const { return member == other.member; }
 };
 
 /// Where a row keeps the figure of a column.
@@ -52,6 +54,7 @@ enum class Subject {
   motion,
   relaxation, ///< of a network
   rest,       ///< how near it came
+  glance,     ///< how near the host sees at least that it did not come
   clock,      ///< of a simulated array
   network,    ///< as loaded into an array
   reference   ///< the array's answers against it
@@ -102,6 +105,11 @@ inline constexpr StepColumn all_step_columns[] = {
                &StepRow::fall_left, Subject::rest, Curve{"fall left at the end of a step"},
                Total{Summary::median, "median_fall_left", "fall left by a step", "{:.2g} (median)"},
                Total{Summary::largest, "largest_fall_left", "largest fall left", "{:.2g} of a step's"}),
+    StepColumn(
+        "fall_seen", "", "of that, what some conjugate gradients by the host find: at least so much is left",
+        &StepRow::fall_seen, Subject::glance, Curve{"fall seen to be left at the end of a step"},
+        Total{Summary::median, "median_fall_seen", "fall seen to be left by a step", "{:.2g} (median)"},
+        Total{Summary::largest, "largest_fall_seen", "largest fall seen to be left", "{:.2g} of a step's"}),
     StepColumn("max_stretch", "",
                "largest length / rest length (length as built where the rest length is 0); a run ends at 10",
                &StepRow::max_stretch, Subject::motion),
@@ -110,6 +118,9 @@ inline constexpr StepColumn all_step_columns[] = {
     StepColumn("clipped", "", "weights and biases of the step that did not fit their format",
                &StepRow::clipped, Subject::network, {},
                Total{Summary::sum, "clipped", "weights and biases clipped", "{}"}),
+    StepColumn("vanished", "", "weights and biases of the step, not 0, that their format rounds to 0",
+               &StepRow::vanished, Subject::network, {},
+               Total{Summary::sum, "vanished", "weights and biases that vanish", "{}"}),
     StepColumn("output_error", "",
                "largest |V − V at rest|, of the reference brought to rest on the very same step",
                &ReferenceError::largest_output, Subject::reference,
