@@ -20,9 +20,11 @@ bool ended_at_limit(const levels::StepRow& row) {
   return row.sweeps > 0 && !row.converged;
 }
 
-// Whatever ended it. Known only where somebody looked for the rest.
+// Whatever ended it. Where nobody looked for the rest itself, what the host saw on the way there stands for
+// it: at least so much is left.
 bool leaves_much(const levels::StepRow& row) {
-  return row.sweeps > 0 && row.fall_left && *row.fall_left > most_fall_left;
+  const std::optional<double>& left = row.fall_left ? row.fall_left : row.fall_seen;
+  return row.sweeps > 0 && left && *left > most_fall_left;
 }
 
 constexpr Reason reasons[] = {{ended_at_limit, "ended at max_sweeps"},
@@ -34,14 +36,26 @@ bool is_unrested(const levels::StepRow& row) {
   return std::any_of(std::begin(reasons), std::end(reasons), [&](const Reason& r) { return r.holds(row); });
 }
 
-std::string unrest_text(const StepRows& rows) {
+void UnrestCount::add(const levels::StepRow& row) {
+  static_assert(std::size(reasons) == std::tuple_size_v<decltype(of)>);
+  for (std::size_t k = 0; k < of.size(); ++k) of[k] += reasons[k].holds(row);
+  unrested += is_unrested(row);
+  ++steps;
+}
+
+std::string UnrestCount::text() const {
   std::string text;
-  for (const Reason& reason : reasons)
-    if (const auto count = std::count_if(rows.begin(), rows.end(), reason.holds); count > 0)
-      text += fmt::format("{}{} of {} {}", text.empty() ? "" : ", ",
-                          input::grouped(static_cast<std::uint64_t>(count)),
-                          input::with_noun(rows.size(), "step"), reason.words);
+  for (std::size_t k = 0; k < of.size(); ++k)
+    if (of[k] > 0)
+      text += fmt::format("{}{} of {} {}", text.empty() ? "" : ", ", input::grouped(of[k]),
+                          input::with_noun(steps, "step"), reasons[k].words);
   return text.empty() ? text : text + ".";
+}
+
+std::string unrest_text(const StepRows& rows) {
+  UnrestCount count;
+  for (const levels::StepRow& row : rows) count.add(row);
+  return count.text();
 }
 
 } // namespace hopmesh::run

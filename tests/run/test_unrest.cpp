@@ -38,6 +38,14 @@ TEST(Unrest, NamesStepsThatCallThemselvesAtRestAndAreNot) {
             "1 of 4 steps ended at max_sweeps, 1 of 4 steps left more than a tenth of their fall.");
 }
 
+TEST(Unrest, GoesByWhatTheHostSawWhereNobodyLookedForTheRest) {
+  auto rows = rested(3);
+  rows[0].fall_seen = 0.3, rows[1].fall_seen = 0.05;
+  EXPECT_EQ(run::unrest_text(rows), "1 of 3 steps left more than a tenth of their fall.");
+  rows[0].fall_left = 0.02; // a network that is not definite has several rests
+  EXPECT_EQ(run::unrest_text(rows), "");
+}
+
 TEST(Unrest, IsNotGuessedFromTheInput) {
   auto rows = rested(2);
   rows[0].input_left = 0.9;
