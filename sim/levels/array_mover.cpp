@@ -121,13 +121,9 @@ StepRow ArrayMover::advance() {
 // Signs have no way down but their own rule.
 void ArrayMover::look_back(StepRow& row) {
   const hm_network& network = memory_.state.network;
-  if (!left_over_) {
-    row.input_left = input_left(mesh_.firmware(), network);
-    return;
-  }
-  const LeftOver::Seen seen = left_over_->look(network, memory_.start, sweeps_.back());
-  row.input_left = seen.input;
-  row.fall_seen = seen.fall;
+  row.input_left = input_left(mesh_.firmware(), network);
+  if (left_over_ && row.step % LeftOver::steps_a_look == 0)
+    row.fall_seen = left_over_->look(network, memory_.start, sweeps_.back());
 }
 
 std::uint64_t ArrayMover::bus_cycles() const {

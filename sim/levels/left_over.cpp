@@ -82,21 +82,13 @@ reference::Network empty_network(const BuiltMesh& mesh) {
   return network;
 }
 
-double largest_movable(const Vector& s, const Vector& V) {
-  double largest = 0;
-  for (Eigen::Index k = 0; k < s.size(); ++k)
-    if (!is_held(s[k], V[k])) largest = std::max(largest, std::fabs(s[k]));
-  return largest;
-}
-
 } // namespace
 
 LeftOver::LeftOver(const BuiltMesh& mesh)
     : blocks_(empty_network(mesh), static_cast<Eigen::Index>(mesh.components())) {}
 
 // An energy falls by the mean of s at both ends times the way.
-LeftOver::Seen LeftOver::look(const hm_network& network, const std::vector<double>& start,
-                              std::uint32_t sweeps) {
+double LeftOver::look(const hm_network& network, const std::vector<double>& start, std::uint32_t sweeps) {
   const auto neurons = static_cast<Eigen::Index>(start.size());
   blocks_.refill(network.weight, network.bias);
   const Eigen::Map<const Vector> I(network.bias, neurons);
@@ -112,8 +104,7 @@ LeftOver::Seen LeftOver::look(const hm_network& network, const std::vector<doubl
   const double seen = std::max(0.0, (s + s_below).dot(below - V) / 2);
   const double done = (s + s0).dot(V - V0) / 2, from_none = (s + I).dot(V) / 2;
   const double whole = std::max(done + seen, least_part * (from_none + seen));
-  const double bias = I.cwiseAbs().maxCoeff();
-  return {bias > 0 ? largest_movable(s, V) / bias : 0, whole > 0 ? seen / whole : 0};
+  return whole > 0 ? seen / whole : 0;
 }
 
 } // namespace hopmesh::levels

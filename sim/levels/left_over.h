@@ -20,21 +20,20 @@ double fall_left(const reference::BlockNetwork& network, const reference::Vector
                  const reference::Vector& V, const reference::Vector& rest);
 
 /// The host's own look at what an array leaves: from the network as the firmware built it, before it was
-/// rounded, and the outputs as they were read back. Cheap beside the relaxation, so that no step goes unseen.
+/// rounded, and the outputs as they were read back.
 class LeftOver {
  public:
   /// The look takes some 600 bytes a neuron of the host's memory: larger meshes do without it.
   static constexpr std::size_t most_neurons = 100'000;
 
-  struct Seen {
-    double input = 0; ///< as input_left()
-    double fall = 0;  ///< of fall_left(), so much at least where the network is definite
-  };
+  /// A look costs about a fifth of a step of the engine. One step in so many, from the first on, is looked
+  /// at: by the step's number alone, so that a resumed run looks at the same ones.
+  static constexpr std::uint64_t steps_a_look = 8;
 
   explicit LeftOver(const BuiltMesh& mesh);
-  /// `start`: V0, cell by cell; `sweeps` that the array took: the look goes so far that it costs a fraction
-  /// of them.
-  Seen look(const hm_network& network, const std::vector<double>& start, std::uint32_t sweeps);
+  /// Of fall_left(), so much at least where the network is definite. `start`: V0, cell by cell; `sweeps` that
+  /// the array took: the look goes so far that it costs a fraction of them.
+  double look(const hm_network& network, const std::vector<double>& start, std::uint32_t sweeps);
 
  private:
   reference::BlockNetwork blocks_; ///< node by node of the array's cells

@@ -57,6 +57,14 @@ double ReferenceMover::left_of_fall() {
   return fall_left(*blocks_, last_.V0, V, rest);
 }
 
+void ReferenceMover::answer_after(reference::SweepsOfSteps sweeps) {
+  motion_.answer = reference::by_equal_sweeps(std::move(sweeps), motion_.neuron);
+}
+
+void ReferenceMover::answer_at_rest() {
+  motion_.answer = reference::by_rest(motion_, static_cast<Eigen::Index>(mesh_.components()));
+}
+
 StepState ReferenceMover::state() const {
   return {state_.step,
           values_of(state_.position),

@@ -3,6 +3,7 @@
 
 #include "sim/files/csv.h"
 #include "sim/levels/mover.h"
+#include "sim/levels/step_columns.h"
 
 #include <functional>
 

@@ -11,6 +11,7 @@ namespace {
 
 /// A way in which a step is not at rest. Another reason is another line of `reasons`.
 struct Reason {
+  bool (*known)(const levels::StepRow& row); ///< somebody looked
   bool (*holds)(const levels::StepRow& row);
   const char* words; ///< what its steps did
 };
@@ -20,15 +21,26 @@ bool ended_at_limit(const levels::StepRow& row) {
   return row.sweeps > 0 && !row.converged;
 }
 
-// Whatever ended it. Where nobody looked for the rest itself, what the host saw on the way there stands for
-// it: at least so much is left.
-bool leaves_much(const levels::StepRow& row) {
-  const std::optional<double>& left = row.fall_left ? row.fall_left : row.fall_seen;
-  return row.sweeps > 0 && left && *left > most_fall_left;
+// Where nobody looked for the rest itself, what the host saw on the way there stands for it: at least so much
+// is left.
+const std::optional<double>& left_by(const levels::StepRow& row) {
+  return row.fall_left ? row.fall_left : row.fall_seen;
 }
 
-constexpr Reason reasons[] = {{ended_at_limit, "ended at max_sweeps"},
-                              {leaves_much, "left more than a tenth of their fall"}};
+// Whatever ended it.
+bool leaves_much(const levels::StepRow& row) {
+  return row.sweeps > 0 && left_by(row) && *left_by(row) > most_fall_left;
+}
+
+constexpr Reason reasons[] = {
+    {[](const levels::StepRow&) { return true; }, ended_at_limit, "ended at max_sweeps"},
+    {[](const levels::StepRow& row) { return left_by(row).has_value(); }, leaves_much,
+     "left more than a tenth of their fall"}};
+
+// Of how many steps this is known.
+std::string among(std::uint64_t known, std::uint64_t steps) {
+  return known == steps ? input::with_noun(steps, "step") : input::with_noun(known, "step") + " looked at";
+}
 
 } // namespace
 
@@ -38,7 +50,10 @@ bool is_unrested(const levels::StepRow& row) {
 
 void UnrestCount::add(const levels::StepRow& row) {
   static_assert(std::size(reasons) == std::tuple_size_v<decltype(of)>);
-  for (std::size_t k = 0; k < of.size(); ++k) of[k] += reasons[k].holds(row);
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    known[k] += reasons[k].known(row);
+    of[k] += reasons[k].holds(row);
+  }
   unrested += is_unrested(row);
   ++steps;
 }
@@ -48,7 +63,7 @@ std::string UnrestCount::text() const {
   for (std::size_t k = 0; k < of.size(); ++k)
     if (of[k] > 0)
       text += fmt::format("{}{} of {} {}", text.empty() ? "" : ", ", input::grouped(of[k]),
-                          input::with_noun(steps, "step"), reasons[k].words);
+                          among(known[k], steps), reasons[k].words);
   return text.empty() ? text : text + ".";
 }
 

@@ -16,7 +16,7 @@ bool is_unrested(const levels::StepRow& row);
 /// How many steps of a motion were not at rest, reason by reason.
 struct UnrestCount {
   std::uint64_t steps = 0, unrested = 0;
-  std::array<std::uint64_t, 2> of{}; ///< the reasons in unrest.cpp
+  std::array<std::uint64_t, 2> known{}, of{}; ///< the reasons in unrest.cpp: steps looked at, and those
 
   void add(const levels::StepRow& row);
   std::string text() const; ///< as unrest_text()

@@ -6,7 +6,6 @@
 #include "sim/levels/reference_mover.h"
 #include "sim/run/progress.h"
 #include "sim/run/run_totals.h"
-#include "sim/study/budget/answerers.h"
 #include "sim/study/truth_store.h"
 #include "sim/study/twin.h"
 
@@ -28,6 +27,18 @@ std::vector<double> times_of(const scene::MotionKeys& motion) {
   }
   return times;
 }
+
+/// Keeps the sweeps of an array's steps.
+class SweepWatch : public run::StepSink {
+ public:
+  explicit SweepWatch(const levels::ArrayMover& array) : array_(array) {}
+  void step(const levels::StepRow&, const levels::Mover&) override { of.push_back(array_.last_sweeps()); }
+
+  reference::SweepsOfSteps of;
+
+ private:
+  const levels::ArrayMover& array_;
+};
 
 /// Adds a link to the chain; false where its motion was interrupted.
 bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion, Budget& budget,
@@ -67,10 +78,9 @@ bool fly_all(const levels::Prepared& p, Budget& budget) {
     return fly(mover, {motion, mends, {}}, scene.motion, budget, beside);
   };
   if (!link(*array.mover, "array " + p.inputs.array.name, "rounding", &sweeps)) return false;
-  const reference::StepParameters motion = levels::motion_for(scene, p.inputs.array);
-  same.answer_by(by_equal_sweeps(sweeps.of, motion.neuron));
-  twin.answer_by(by_equal_sweeps(sweeps.of, motion.neuron));
-  rest.answer_by(by_rest(motion, static_cast<Eigen::Index>(p.mesh->components())));
+  same.answer_after(sweeps.of);
+  twin.answer_after(sweeps.of);
+  rest.answer_at_rest();
   const bool flown = link(same, "reference, by as many sweeps in every step", "stopping", &twin);
   budget.sensitivity = at_times(twin, budget, scene.motion.time_step);
   return flown && link(rest, "reference, at rest in every step", "formulation") &&

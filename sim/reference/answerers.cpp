@@ -1,12 +1,10 @@
-#include "sim/study/budget/answerers.h"
+#include "sim/reference/answerers.h"
 
 #include "sim/reference/rest.h"
 
 #include <algorithm>
 
-namespace hopmesh::study {
-
-using namespace reference;
+namespace hopmesh::reference {
 
 Answerer by_equal_sweeps(SweepsOfSteps sweeps, Neuron neuron) {
   std::uint64_t last = 0;
@@ -40,4 +38,4 @@ Answerer by_rest(const StepParameters& motion, Eigen::Index components) {
   };
 }
 
-} // namespace hopmesh::study
+} // namespace hopmesh::reference
