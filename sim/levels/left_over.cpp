@@ -59,7 +59,7 @@ double fall_left(const reference::BlockNetwork& network, const Vector& start, co
 namespace {
 
 // A product in double costs about as much as a sweep of the engine. Few show little of a long way.
-constexpr std::uint32_t least_products = 4, most_products = 24, sweeps_a_product = 48;
+constexpr std::uint32_t least_products = 8, most_products = 48, sweeps_a_product = 24;
 
 /// A network of zeros whose weights lie as the firmware's do.
 reference::Network empty_network(const BuiltMesh& mesh) {
