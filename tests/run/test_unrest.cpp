@@ -13,7 +13,7 @@ run::StepRows rested(std::size_t steps) {
 }
 
 TEST(Unrest, IsNotTalkedOfWhereThereIsNone) {
-  EXPECT_EQ(run::unrest_text({}), "");
+  EXPECT_EQ(run::unrest_text(run::StepRows()), "");
   EXPECT_EQ(run::unrest_text(rested(3)), "");
   run::StepRows rivals(3); // no sweeps: nothing that could come to rest
   EXPECT_EQ(run::unrest_text(rivals), "");
