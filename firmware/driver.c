@@ -164,6 +164,7 @@ static double row_norm(const hm_mesh* mesh, const hm_network* network, uint32_t 
 
 static int end_counted(hm_driver* d, hm_stream* stream) {
   d->clipped += stream->clipped;
+  d->vanished += stream->vanished;
   return hm_stream_end(stream);
 }
 
@@ -256,7 +257,7 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
   d->shift = prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
-  d->clipped = 0;
+  d->clipped = d->vanished = 0;
   uint32_t status;
   TRY(read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;

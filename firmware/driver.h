@@ -18,8 +18,9 @@ typedef struct hm_driver {
   uint32_t normaliser, output;
   hm_format weight, bias, state;
   hm_window weights, biases, outputs;
-  uint32_t clipped; /* weights and biases of the last load that did not fit their format */
-  int shift;        /* they were loaded times 2^shift; 0 where rows are prescaled */
+  uint32_t clipped;  /* weights and biases of the last load that did not fit their format */
+  uint32_t vanished; /* and those, not 0, that it rounded to 0 */
+  int shift;         /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
 
 /* Looks at the array behind `bus` and checks that it was built for `mesh`. `buffer` is the longest burst, 1

@@ -35,12 +35,19 @@ static uint32_t pack(hm_stream* s, uint32_t* codes, uint32_t count) {
   return full;
 }
 
+static uint32_t count_vanished(const double* values, const uint32_t* codes, uint32_t count) {
+  uint32_t vanished = 0;
+  for (uint32_t k = 0; k < count; ++k) vanished += (uint32_t)((values[k] != 0) & (codes[k] == 0));
+  return vanished;
+}
+
 int hm_stream_put(hm_stream* s, const double* values, uint32_t count) {
   const hm_line* line = s->line;
   while (count > 0) {
     const uint32_t room = line->buffer_words - s->waiting, part = count < room ? count : room;
     uint32_t* const at = line->buffer + s->waiting;
     s->clipped += hm_codes(values, part, s->scale, s->format, at);
+    s->vanished += count_vanished(values, at, part);
     s->waiting += pack(s, at, part);
     values += part;
     count -= part;

@@ -30,6 +30,7 @@ typedef struct hm_stream {
   uint32_t address, waiting;            /* of the burst to come: where it goes, and its words so far */
   uint32_t codes_a_word, held, partial; /* held: codes in the word at hand, which is not full yet */
   uint32_t clipped;                     /* values that did not fit the format */
+  uint32_t vanished;                    /* values, not 0, that it rounded to 0 */
 } hm_stream;
 
 /* Values are multiplied by 2^shift before they become codes. */

@@ -17,10 +17,11 @@ const hm_formulation* formulation_named(const std::string& name) {
   throw std::logic_error("no formulation " + name);
 }
 
-/// A driver, and where the last of its relaxations is kept: a step may have several.
+/// A driver, and where its relaxations are kept: a step may have several.
 struct Watched {
   hm_driver* driver;
   hm_relaxation* last;
+  std::vector<std::uint32_t>* sweeps;
 };
 
 int relax_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
@@ -28,6 +29,7 @@ int relax_watched(void* context, const hm_mesh* mesh, hm_network* network, doubl
   const auto* watched = static_cast<Watched*>(context);
   const int error = hm_driver_relax(watched->driver, mesh, network, threshold, max_sweeps, result);
   *watched->last = *result;
+  watched->sweeps->push_back(result->sweeps);
   return error;
 }
 
@@ -59,6 +61,8 @@ ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const s
       memory_(mesh, motion_.formulation->looks_back), buffer_(4096) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
+  const bool signs = array.output == spec::Output::binary;
+  if (!signs && mesh.topology().neurons() <= LeftOver::most_neurons) left_over_.emplace(mesh);
 }
 
 // The array is looked at with the first step, when every port of the process has been made.
@@ -76,7 +80,8 @@ StepRow ArrayMover::advance() {
   if (check_) check_->begin(state(), motion_.node_force);
   port_.begin_step(step);
   hm_relaxation last{};
-  Watched watched{&driver_, &last};
+  sweeps_.clear();
+  Watched watched{&driver_, &last, &sweeps_};
   const hm_solver solver{&watched, relax_watched};
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
@@ -96,8 +101,9 @@ StepRow ArrayMover::advance() {
   row.sweeps = result.relaxation.sweeps;
   row.cycles = result.relaxation.cycles;
   row.converged = result.relaxation.converged;
-  row.input_left = input_left(mesh_.firmware(), memory_.state.network);
+  look_back(row);
   row.clipped = driver_.clipped;
+  row.vanished = driver_.vanished;
   row.bus_cycles = bus_cycles() - bus_before;
   row.saturated = static_cast<std::uint64_t>(std::count_if(
       memory_.now.output.begin(), memory_.now.output.end(), [](double V) { return std::fabs(V) >= 1; }));
@@ -111,6 +117,14 @@ StepRow ArrayMover::advance() {
   }
   row.hash = state_hash(memory_.now);
   return row;
+}
+
+// Signs have no way down but their own rule.
+void ArrayMover::look_back(StepRow& row) {
+  const hm_network& network = memory_.state.network;
+  row.input_left = input_left(mesh_.firmware(), network);
+  if (left_over_ && row.step % LeftOver::steps_a_look == 0)
+    row.fall_seen = left_over_->look(network, memory_.start, sweeps_.back());
 }
 
 std::uint64_t ArrayMover::bus_cycles() const {

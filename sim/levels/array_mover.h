@@ -5,6 +5,7 @@
 #include "sim/levels/bus_profile.h"
 #include "sim/levels/codes.h"
 #include "sim/levels/image_force.h"
+#include "sim/levels/left_over.h"
 #include "sim/levels/mover.h"
 #include "sim/levels/reference_check.h"
 #include "sim/levels/step_memory.h"
@@ -29,22 +30,27 @@ class ArrayMover : public Mover {
   /// places.
   Codes start_raw() const { return to_codes(memory_.start, driver_.state); }
   Codes rest_raw() const { return to_codes(memory_.now.output, driver_.state); }
+  /// Sweeps of each relaxation of the last step.
+  const std::vector<std::uint32_t>& last_sweeps() const { return sweeps_; }
   const hm_driver& driver() const { return driver_; }
 
  private:
   void open();
+  void look_back(StepRow& row);
   std::uint64_t bus_cycles() const;
 
   const BuiltMesh& mesh_;
   ArrayPort& port_;
   BusProfile profile_;
   std::optional<ReferenceCheck> check_;
+  std::optional<LeftOver> left_over_;
   std::optional<ImageForce> image_;
   hm_step_parameters motion_{};
   hm_driver driver_{};
   StepMemory memory_;
   std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
   std::vector<SignalRange> seen_; ///< before restore()
+  std::vector<std::uint32_t> sweeps_;
   std::vector<std::uint32_t> buffer_;
   double judging_seconds_ = 0;
 };

@@ -88,14 +88,14 @@ reference::Network ReferenceCheck::expanded(const std::vector<double>& start, do
 }
 
 ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
-                                     const hm_relaxation& last) const {
+                                     const hm_relaxation& last) {
   reference::Answer answer;
   const reference::Network network = expanded(start, scale, answer.start);
   const std::size_t neurons = start.size();
   answer.V = by_node(std::vector<double>(built.output, built.output + neurons));
   answer.sweeps = last.sweeps;
   const bool signs = motion_.neuron == reference::Neuron::binary;
-  const reference::BlockNetwork blocks(network, static_cast<Eigen::Index>(mesh_.components()));
+  const reference::BlockNetwork& blocks = laid_out(network);
   const reference::Judgement judgement =
       signs ? reference::judge_signs(network, order_, answer, motion_.max_sweeps)
             : reference::judge_answer(blocks, order_, answer);
@@ -108,7 +108,7 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.rounding = rms(answer.V, judgement.same_sweeps);
   error.stopping = rms(judgement.same_sweeps, judgement.rest);
   error.energy_gap = judgement.gap;
-  error.fall_left = fall_left(network, answer.start, answer.V, judgement.rest);
+  error.fall_left = fall_left(blocks, answer.start, answer.V, judgement.rest);
   error.network = network_difference(network, built);
   if (last.converged) return error;
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
@@ -119,41 +119,48 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   return error;
 }
 
+const reference::BlockNetwork& ReferenceCheck::laid_out(const reference::Network& network) {
+  if (blocks_)
+    blocks_->take(network);
+  else
+    blocks_.emplace(network, static_cast<Eigen::Index>(mesh_.components()));
+  return *blocks_;
+}
+
 namespace {
 
-/// Where a row of the matrix has a column; null where it has none.
-const double* weight_at(const reference::Matrix& W, std::uint32_t row, std::uint32_t column) {
+/// Where the matrix keeps a weight; -1 where it has none.
+std::ptrdiff_t place_of(const reference::Matrix& W, std::size_t row, std::size_t column) {
   const auto* const columns = W.innerIndexPtr();
   const auto* const first = columns + W.outerIndexPtr()[row];
   const auto* const last = columns + W.outerIndexPtr()[row + 1];
   const auto* const at = std::lower_bound(first, last, static_cast<reference::Matrix::StorageIndex>(column));
-  return at != last && *at == static_cast<reference::Matrix::StorageIndex>(column)
-             ? W.valuePtr() + (at - columns)
-             : nullptr;
+  return at != last && *at == static_cast<reference::Matrix::StorageIndex>(column) ? at - columns : -1;
 }
 
 } // namespace
 
-// The firmware's rows against the reference's matrix, entry by entry. A node's columns follow each other.
-double ReferenceCheck::network_difference(const reference::Network& network, const hm_network& built) const {
-  const hm_mesh& m = mesh_.firmware();
-  const std::uint32_t n = m.components;
+// Which weights the matrix has follows from the mesh alone: they are looked for once.
+void ReferenceCheck::find_places(const reference::Matrix& W) {
+  place_.assign(hm_weight_count(&mesh_.firmware()), -1);
+  mesh_.each_weight(
+      [&](std::size_t at, std::size_t row, std::size_t column) { place_[at] = place_of(W, row, column); });
+}
+
+// The firmware's rows against the reference's matrix, entry by entry.
+double ReferenceCheck::network_difference(const reference::Network& network, const hm_network& built) {
+  if (place_.empty()) find_places(network.W);
   double largest = 0, difference = 0;
   const auto compare = [&](double wanted, double found) {
     largest = std::max(largest, std::fabs(wanted));
     difference = std::max(difference, std::fabs(wanted - found));
   };
-  for (std::uint32_t c = 0; c < m.cells; ++c)
-    for (std::uint32_t p = 0; p < n; ++p) {
-      const std::uint32_t row = m.node_of_cell[c] * n + p;
-      compare(network.I[row], built.bias[c * n + p]);
-      const double* found = built.weight + hm_row_offset(&m, c, p);
-      for (std::uint32_t t = 0; t < hm_row_length(&m, c); t += n, found += n) {
-        const std::uint32_t source = t == 0 ? c : m.link_to[m.first_link[c] + t / n - 1];
-        const double* const wanted = weight_at(network.W, row, m.node_of_cell[source] * n);
-        for (std::uint32_t q = 0; q < n; ++q) compare(wanted ? wanted[q] : 0, found[q]);
-      }
-    }
+  const double* const weights = network.W.valuePtr();
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    compare(place_[k] >= 0 ? weights[place_[k]] : 0, built.weight[k]);
+  const std::size_t n = mesh_.components();
+  for (std::size_t k = 0; k < mesh_.cells() * n; ++k)
+    compare(network.I[static_cast<Eigen::Index>(mesh_.node_of_cell(k / n) * n + k % n)], built.bias[k]);
   return largest > 0 ? difference / largest : 0;
 }
 

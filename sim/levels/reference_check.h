@@ -35,18 +35,23 @@ class ReferenceCheck {
   /// With several expansions it is the last one that is judged, from the array's own start of it; so it is in
   /// the incremental formulation, at the array's own scale. `last`: what the array took for it.
   ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale,
-                       const hm_relaxation& last) const;
+                       const hm_relaxation& last);
 
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;
   /// That expansion by the reference, from its own prediction; `start` becomes its point.
   reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
-  double network_difference(const reference::Network& network, const hm_network& built) const;
+  const reference::BlockNetwork& laid_out(const reference::Network& network);
+  void find_places(const reference::Matrix& W);
+  double network_difference(const reference::Network& network, const hm_network& built);
 
   const BuiltMesh& mesh_;
   reference::StepParameters motion_;
   const reference::Order order_;
   reference::State state_;
+  std::optional<reference::BlockNetwork> blocks_; ///< the last step's network
+  std::vector<std::ptrdiff_t>
+      place_; ///< [weights of the array]: in the reference's matrix; -1 where it has none
 };
 
 } // namespace hopmesh::levels

@@ -43,15 +43,26 @@ StepRow ReferenceMover::advance() {
 }
 
 // Signs have no way down but their own rule.
-double ReferenceMover::left_of_fall() const {
+double ReferenceMover::left_of_fall() {
   constexpr std::uint32_t sweeps_of_signs = 100;
   const reference::Vector& V = last_.relaxation.V;
-  const auto components = static_cast<Eigen::Index>(mesh_.components());
+  if (blocks_)
+    blocks_->take(last_.network);
+  else
+    blocks_.emplace(last_.network, static_cast<Eigen::Index>(mesh_.components()));
   const reference::Vector rest =
       motion_.neuron == reference::Neuron::binary
           ? reference::judge_signs(last_.network, order_, {last_.V0, V, 0}, sweeps_of_signs).rest
-          : reference::rest_from(reference::BlockNetwork(last_.network, components), V).V;
-  return fall_left(last_.network, last_.V0, V, rest);
+          : reference::rest_from(*blocks_, V).V;
+  return fall_left(*blocks_, last_.V0, V, rest);
+}
+
+void ReferenceMover::answer_after(reference::SweepsOfSteps sweeps) {
+  motion_.answer = reference::by_equal_sweeps(std::move(sweeps), motion_.neuron);
+}
+
+void ReferenceMover::answer_at_rest() {
+  motion_.answer = reference::by_rest(motion_, static_cast<Eigen::Index>(mesh_.components()));
 }
 
 StepState ReferenceMover::state() const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hopmesh::reference {
 
@@ -46,7 +47,8 @@ class Assembly {
  public:
   explicit Assembly(const scene::Mesh& mesh)
       : mesh_(mesh), gradient_(Vector::Zero(components(mesh) * nodes_of(mesh))),
-        diagonal_(mesh.nodes(), Block::Zero()), neighbours_(mesh.nodes()) {}
+        diagonal_(mesh.nodes(), Block::Zero()), first_(most_neighbours(mesh)), count_(mesh.nodes(), 0),
+        links_(first_.back()) {}
 
   void add_spring(const scene::Spring& spring, const Expansion& term) {
     const auto [i, j] = spring.node;
@@ -68,9 +70,9 @@ class Assembly {
   Network network(const Vector& V0) {
     for (Eigen::Index node = 0; node < nodes_of(mesh_); ++node)
       if (!mesh_.pinned[node]) link(node, node, -diagonal_[node]);
-    const Matrix W = weights();
-    const Vector I = -(W * V0) - gradient_;
-    return {W, I};
+    Network network{weights(), {}};
+    network.I = -(network.W * V0) - gradient_;
+    return network;
   }
 
  private:
@@ -80,33 +82,46 @@ class Assembly {
     Block weight;
   };
 
+  /// Where each node's links begin, and the end: room for one to each end of its springs and to itself.
+  static std::vector<std::size_t> most_neighbours(const scene::Mesh& mesh) {
+    std::vector<std::size_t> first(mesh.nodes() + 1, 1);
+    first[0] = 0;
+    for (const scene::Spring& spring : mesh.springs)
+      for (const std::uint32_t node : spring.node) ++first[node + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
+  }
+
   // In the order of the columns. Two springs between the same nodes make a single block.
   void link(Eigen::Index node, Eigen::Index from, const Block& weight) {
-    auto& all = neighbours_[node];
-    auto at = all.end();
-    while (at != all.begin() && std::prev(at)->from >= from) --at;
-    if (at != all.end() && at->from == from)
+    Link *const begin = &links_[first_[node]], *at = begin + count_[node];
+    while (at != begin && at[-1].from >= from) --at;
+    Link* const end = begin + count_[node];
+    if (at != end && at->from == from) {
       at->weight += weight;
-    else
-      all.insert(at, {from, weight});
+      return;
+    }
+    std::copy_backward(at, end, end + 1);
+    *at = {from, weight};
+    ++count_[node];
   }
 
   // Row by row, as the matrix keeps them. Zeros are kept: which weights exist follows from the mesh alone,
   // not from where it happens to be.
   Matrix weights() const {
     const Eigen::Index n = components(mesh_);
-    std::size_t blocks = 0;
-    for (const auto& links : neighbours_) blocks += links.size();
+    const std::size_t blocks = std::accumulate(count_.begin(), count_.end(), std::size_t{0});
     Matrix W(gradient_.size(), gradient_.size());
     W.resizeNonZeros(static_cast<Eigen::Index>(blocks) * n * n);
     auto *start = W.outerIndexPtr(), *column = W.innerIndexPtr();
     double* value = W.valuePtr();
-    for (const auto& links : neighbours_)
+    for (std::size_t node = 0; node < count_.size(); ++node)
       for (Eigen::Index p = 0; p < n; ++p, ++start) {
-        for (const Link& link : links)
+        const Link *link = links_.data() + first_[node], *const end = link + count_[node];
+        for (; link != end; ++link)
           for (Eigen::Index q = 0; q < n; ++q) {
-            *column++ = static_cast<Matrix::StorageIndex>(row(mesh_, link.from, q));
-            *value++ = link.weight(axis(mesh_, p), axis(mesh_, q));
+            *column++ = static_cast<Matrix::StorageIndex>(row(mesh_, link->from, q));
+            *value++ = link->weight(axis(mesh_, p), axis(mesh_, q));
           }
         start[1] = static_cast<Matrix::StorageIndex>(value - W.valuePtr());
       }
@@ -116,7 +131,9 @@ class Assembly {
   const scene::Mesh& mesh_;
   Vector gradient_;
   std::vector<Block, Eigen::aligned_allocator<Block>> diagonal_;
-  std::vector<std::vector<Link>> neighbours_;
+  const std::vector<std::size_t> first_;
+  std::vector<std::size_t> count_;
+  std::vector<Link, Eigen::aligned_allocator<Link>> links_;
 };
 
 } // namespace hopmesh::reference

@@ -13,15 +13,29 @@ struct alignas(32) Quad {
   double lane[4];
 };
 
-/// A network node by node. Nodes that share weights share a block of them, column by column: what an output
-/// of the source does to all neurons of the node.
+/// A whole line of the cache.
+struct alignas(64) QuadPair {
+  Quad half[2];
+};
+
+/// A network node by node. Nodes that share weights share a symmetric block of them: what the outputs of the
+/// source do to the neurons of the node. A block lies as its diagonal and as (xy, yz, zx).
 struct BlockRows {
   std::size_t nodes = 0, components = 0;
-  const std::uint32_t* first = nullptr;  ///< [nodes + 1] of a node's blocks
+  const std::uint32_t* first =
+      nullptr; ///< [nodes + 2] of a node's blocks; behind the last node is one without
   const std::uint32_t* source = nullptr; ///< [blocks] the node that a block reads, never the node itself
-  const Quad* weight = nullptr;          ///< [blocks * components]
-  const Quad* own = nullptr;             ///< [nodes * components] weights between the node's own neurons
-  const Quad* share = nullptr;           ///< [nodes] 1 / N, with N of paper eq. 9; 0 where N is
+  const Quad* weight = nullptr;          ///< [blocks][2]
+  const Quad* own = nullptr;             ///< [nodes][2] weights between the node's own neurons
+};
+
+/// Four nodes that fire together and share no weight; a figure for each of them in the lanes of a quad. Where
+/// nodes run out the one behind the last stands in, whose output stays 0.
+struct FiringGroup {
+  std::uint32_t node[4];
+  Quad own[3][3]; ///< the weight of an output q in a neuron p
+  Quad share[3];  ///< 1 / N, with N of paper eq. 9; 0 where N is
+  Quad bias[3];
 };
 
 /// How a descent stands. Steps are of s_i / sum_j |W_ij|.
@@ -44,9 +58,9 @@ struct BlockKernel {
   const char* name;
   /// s = W V + bias, all [nodes].
   void (*inputs)(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s);
-  /// Fires the neurons of the nodes named, which share no weight, component by component.
-  void (*sweep)(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
-                Quad* V);
+  /// Fires the groups, none of whose nodes share weights, component by component. V: [nodes + 1][2],
+  /// a node's outputs (x, y, z) and again as (y, z, x).
+  void (*sweep)(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V);
 
   /// direction = step * free + kept * direction.
   void (*turn)(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction);
@@ -56,7 +70,7 @@ struct BlockKernel {
   Standing (*walk)(std::size_t nodes, const DescentFields& from, double far, Quad* V, Quad* s, Quad* free);
 };
 
-extern const BlockKernel portable_kernel, avx2_kernel;
+extern const BlockKernel portable_kernel, avx2_kernel, avx512_kernel;
 /// The widest that this processor runs.
 const BlockKernel& block_kernel();
 

@@ -1,100 +1,88 @@
 // The loops of block_kernel.h, included once for each instruction set.
-#include "sim/reference/block_kernel.h"
+#include "sim/reference/block_kernel_fours.h"
 
 namespace hopmesh::reference {
 namespace {
 
-using Four = double __attribute__((vector_size(32), may_alias));
-
-inline const Four* fours(const Quad* quads) {
-  return reinterpret_cast<const Four*>(quads);
-}
-inline Four* fours(Quad* quads) {
-  return reinterpret_cast<Four*>(quads);
-}
-
-inline double total(const Four& sums) {
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-/// Adds to `sum` what `count` blocks bring; a sum for each column, so that no addition waits for the last.
-template <std::size_t n>
-inline void add_blocks(const Four* weight, const std::uint32_t* source, std::size_t count, const Quad* V,
-                       Four& sum) {
-  Four second{}, third{};
-  for (std::size_t k = 0; k < count; ++k, weight += n) {
-    const double* v = V[source[k]].lane;
-    sum += weight[0] * v[0];
-    if (n > 1) second += weight[1] * v[1];
-    if (n > 2) third += weight[2] * v[2];
-  }
-  sum += second + third;
-}
-
-/// s of a node's neurons but for what they do to each other.
-template <std::size_t n>
-inline void add_sources(const BlockRows& rows, std::size_t node, const Quad* V, Four& sum) {
-  const std::uint32_t from = rows.first[node];
-  add_blocks<n>(fours(rows.weight) + n * from, rows.source + from, rows.first[node + 1] - from, V, sum);
-}
-
-template <std::size_t n> void inputs_of(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
+inline void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
+  const Four* weight = fours(rows.weight);
+  const std::uint32_t* source = rows.source;
   for (std::size_t node = 0; node < rows.nodes; ++node) {
-    Four sum = fours(bias)[node];
-    add_sources<n>(rows, node, V, sum);
-    const auto self = static_cast<std::uint32_t>(node);
-    add_blocks<n>(fours(rows.own) + n * node, &self, 1, V, sum);
-    fours(s)[node] = sum;
+    const Four own = fours(V)[node], across = fours(rows.own)[2 * node + 1];
+    Four straight = fours(rows.own)[2 * node] * own, crossed = across * turned(own), back = across * own;
+    for (const std::uint32_t* const end = rows.source + rows.first[node + 1]; source != end;
+         ++source, weight += 2) {
+      const Four v = fours(V)[*source];
+      straight += weight[0] * v;
+      crossed += weight[1] * turned(v);
+      back += weight[1] * v;
+    }
+    fours(s)[node] = fours(bias)[node] + (straight + crossed) + turned_back(back);
   }
+}
+
+/// s of a node's neurons but for bias and what they do to each other. V: [nodes + 1][2], v and v'.
+inline Four sum_sources(const BlockRows& rows, std::size_t node, const Quad* V) {
+  const std::size_t from = rows.first[node], to = rows.first[node + 1];
+  const std::uint32_t *source = rows.source + from, *const end = rows.source + to;
+  const Four* weight = fours(rows.weight) + 2 * from;
+  Four straight{}, crossed{}, back{};
+  for (; source != end; ++source, weight += 2) {
+    const Four* const v = fours(V) + 2 * std::size_t{*source};
+    straight += weight[0] * v[0];
+    crossed += weight[1] * v[1];
+    back += weight[1] * v[0];
+  }
+  return (straight + crossed) + turned_back(back);
 }
 
 // Paper eqs. 10 to 12, with R u = u - V |u|: no neuron waits for a comparison.
-inline double fired(double s, double share, double V) {
-  const double u = s * share;
-  return V + (u - V * __builtin_fabs(u));
+inline Four fired(const Four& s, const Four& share, const Four& V) {
+  const Four u = s * share;
+  return V + (u - V * magnitude(u));
 }
 
-/// Nodes whose inputs are summed before the first of them fires: what a node's neurons wait for each other,
-/// the other nodes fill.
-inline constexpr std::size_t batch = 32;
+/// Groups of nodes whose inputs are summed before the first of them fires: what a group's neurons wait for
+/// each other, the other groups fill.
+inline constexpr std::size_t batch = 8;
 
 template <std::size_t n>
-void fire_batch(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
-                Quad* V) {
-  Four sums[batch];
-  for (std::size_t k = 0; k < count; ++k) {
-    sums[k] = fours(bias)[node[k]];
-    add_sources<n>(rows, node[k], V, sums[k]);
+void fire_batch(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
+  Four sums[batch][4], v[batch][4]; // component by component, a lane for each node of a group
+  for (std::size_t g = 0; g < count; ++g) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      sums[g][k] = sum_sources(rows, group[g].node[k], V);
+      v[g][k] = fours(V)[2 * group[g].node[k]];
+    }
+    transpose(sums[g][0], sums[g][1], sums[g][2], sums[g][3]);
+    transpose(v[g][0], v[g][1], v[g][2], v[g][3]);
   }
   for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t at = node[k];
-      double* const v = V[at].lane;
-      const Quad* const own = rows.own + n * at;
-      double s = sums[k][p];
-      for (std::size_t q = 0; q < n; ++q) s += own[q].lane[p] * v[q];
-      v[p] = fired(s, rows.share[at].lane[p], v[p]);
+    for (std::size_t g = 0; g < count; ++g) {
+      Four s = fours(group[g].bias)[p] + sums[g][p];
+      for (std::size_t q = 0; q < n; ++q) s += fours(group[g].own[p])[q] * v[g][q];
+      v[g][p] = fired(s, fours(group[g].share)[p], v[g][p]);
     }
+  for (std::size_t g = 0; g < count; ++g) {
+    transpose(v[g][0], v[g][1], v[g][2], v[g][3]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      Four* const place = fours(V) + 2 * group[g].node[k];
+      place[0] = v[g][k];
+      place[1] = turned(v[g][k]);
+    }
+  }
 }
 
 template <std::size_t n>
-void sweep_over(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
-                Quad* V) {
-  for (; count > batch; node += batch, count -= batch) fire_batch<n>(rows, bias, node, batch, V);
-  fire_batch<n>(rows, bias, node, count, V);
+void sweep_over(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
+  for (; count > batch; group += batch, count -= batch) fire_batch<n>(rows, group, batch, V);
+  fire_batch<n>(rows, group, count, V);
 }
 
-inline void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s) {
-  if (rows.components == 3) return inputs_of<3>(rows, bias, V, s);
-  if (rows.components == 2) return inputs_of<2>(rows, bias, V, s);
-  inputs_of<1>(rows, bias, V, s);
-}
-
-inline void sweep(const BlockRows& rows, const Quad* bias, const std::uint32_t* node, std::size_t count,
-                  Quad* V) {
-  if (rows.components == 3) return sweep_over<3>(rows, bias, node, count, V);
-  if (rows.components == 2) return sweep_over<2>(rows, bias, node, count, V);
-  sweep_over<1>(rows, bias, node, count, V);
+inline void sweep(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
+  if (rows.components == 3) return sweep_over<3>(rows, group, count, V);
+  if (rows.components == 2) return sweep_over<2>(rows, group, count, V);
+  sweep_over<1>(rows, group, count, V);
 }
 
 inline void turn(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction) {

@@ -2,20 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace hopmesh::reference {
 
 BlockNetwork::BlockNetwork(const Network& network, Eigen::Index components, const BlockKernel& kernel)
     : components_(static_cast<std::size_t>(components)), kernel_(kernel) {
   const auto nodes = static_cast<std::size_t>(network.I.size()) / components_;
-  bias_ = spread(network.I);
-  magnitude_.assign(nodes, {});
-  share_.assign(nodes, {});
-  own_.assign(nodes * components_, {});
-  lay_out(network);
-  for (std::size_t node = 0; node < nodes; ++node)
-    for (std::size_t p = 0; p < components_; ++p) {
-      const double N = magnitude_[node].lane[p] + std::abs(bias_[node].lane[p]);
+  bias_.assign(nodes, {});
+  magnitude_ = share_ = bias_;
+  take(network);
+  expect_symmetric(network.W.valuePtr());
+}
+
+void BlockNetwork::expect_symmetric(const double* weights) const {
+  const double* const block = block_.data()->half[0].lane;
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    if (std::abs(block[place_[k]] - weights[k]) > 0)
+      throw std::logic_error("neurons of two nodes that weigh each other differently");
+}
+
+void BlockNetwork::take(const Network& network) {
+  if (!has_places_of(network)) lay_out(network);
+  refill(network.W.valuePtr(), network.I.data());
+}
+
+bool BlockNetwork::has_places_of(const Network& network) const {
+  const auto *start = network.W.outerIndexPtr(), *column = network.W.innerIndexPtr();
+  return !start_.empty() && std::equal(start_.begin(), start_.end(), start) &&
+         std::equal(column_.begin(), column_.end(), column);
+}
+
+void BlockNetwork::refill(const double* weights, const double* bias) {
+  double* const block = block_.data()->half[0].lane;
+  std::size_t neuron = 0;
+  for (std::size_t node = 0; node < nodes(); ++node)
+    for (std::size_t p = 0; p < components_; ++p, ++neuron) {
+      double sum = 0;
+      for (auto k = static_cast<std::size_t>(start_[neuron]),
+                end = static_cast<std::size_t>(start_[neuron + 1]);
+           k < end; ++k) {
+        block[place_[k]] = weights[k];
+        sum += std::abs(weights[k]);
+      }
+      const double N = sum + std::abs(bias[neuron]);
+      bias_[node].lane[p] = bias[neuron];
+      magnitude_[node].lane[p] = sum;
       share_[node].lane[p] = N > 0 ? 1 / N : 0;
     }
 }
@@ -35,51 +67,55 @@ Vector BlockNetwork::gathered(const Quads& quads) const {
   return V;
 }
 
+// The sources of every node, then where among the figures each weight of the matrix belongs.
 void BlockNetwork::lay_out(const Network& network) {
-  const auto weights = static_cast<std::size_t>(network.W.nonZeros());
-  source_.reserve(weights / (components_ * components_));
-  weight_.reserve(weights / components_);
+  const auto *start = network.W.outerIndexPtr(), *column = network.W.innerIndexPtr();
+  start_.assign(start, start + network.I.size() + 1);
+  column_.assign(column, column + start_.back());
+  place_.assign(column_.size(), 0);
   first_.assign(1, 0);
-  place_.assign(bias_.size(), 0);
-  for (std::size_t node = 0; node < bias_.size(); ++node) {
-    for (std::size_t p = 0; p < components_; ++p) add_row(network, node, p);
-    for (std::size_t k = first_.back(); k < source_.size(); ++k) place_[source_[k]] = 0;
-    first_.push_back(static_cast<std::uint32_t>(source_.size()));
-  }
+  source_.clear();
+  std::vector<std::uint32_t> block_of(nodes(), 0); // of a source, while a node is looked at
+  for (std::size_t node = 0; node < nodes(); ++node) find_sources(node, block_of);
+  first_.push_back(first_.back()); // of the one behind the last node
+  own_ = source_.size();
+  block_.assign(own_ + nodes(), {});
+  for (std::size_t node = 0; node < nodes(); ++node) find_places(node, block_of);
 }
 
-// Columns ascend, so that those of a block follow each other.
-void BlockNetwork::add_row(const Network& network, std::size_t node, std::size_t p) {
-  const auto row = static_cast<Eigen::Index>(node * components_ + p);
-  const auto *column = network.W.innerIndexPtr(), *start = network.W.outerIndexPtr();
-  const double* weight = network.W.valuePtr();
-  std::size_t from = 0, end = 0; // columns of the block at hand
-  Quad* block = nullptr;
-  double sum = 0;
-  for (auto k = start[row]; k < start[row + 1]; ++k) {
-    const auto at = static_cast<std::size_t>(column[k]);
-    if (at >= end || at < from) {
-      const std::size_t source = at / components_;
-      from = source * components_, end = from + components_;
-      block = source == node ? &own_[from] : &weight_[block_of(static_cast<std::uint32_t>(source))];
+void BlockNetwork::find_sources(std::size_t node, std::vector<std::uint32_t>& block_of) {
+  const std::size_t before = source_.size();
+  const auto from = start_[node * components_], to = start_[(node + 1) * components_];
+  for (auto k = from; k < to; ++k) {
+    const std::size_t source = static_cast<std::size_t>(column_[static_cast<std::size_t>(k)]) / components_;
+    if (source == node || block_of[source] != 0) continue;
+    source_.push_back(static_cast<std::uint32_t>(source));
+    block_of[source] = 1;
+  }
+  for (std::size_t k = before; k < source_.size(); ++k) block_of[source_[k]] = 0;
+  first_.push_back(static_cast<std::uint32_t>(source_.size()));
+}
+
+// A block's diagonal, then (xy, yz, zx).
+void BlockNetwork::find_places(std::size_t node, std::vector<std::uint32_t>& block_of) {
+  constexpr std::uint32_t in_block[3][3] = {{0, 4, 6}, {4, 1, 5}, {6, 5, 2}};
+  for (std::uint32_t k = first_[node]; k < first_[node + 1]; ++k) block_of[source_[k]] = k;
+  for (std::size_t p = 0; p < components_; ++p) {
+    const std::size_t neuron = node * components_ + p;
+    for (auto k = static_cast<std::size_t>(start_[neuron]); k < static_cast<std::size_t>(start_[neuron + 1]);
+         ++k) {
+      const std::size_t source = static_cast<std::size_t>(column_[k]) / components_;
+      const std::size_t q = static_cast<std::size_t>(column_[k]) % components_;
+      const std::size_t block = source == node ? own_ + node : block_of[source];
+      place_[k] = static_cast<std::uint32_t>(8 * block) + in_block[p][q];
     }
-    block[at - from].lane[p] = weight[k];
-    sum += std::abs(weight[k]);
   }
-  magnitude_[node].lane[p] = sum;
-}
-
-std::size_t BlockNetwork::block_of(std::uint32_t source) {
-  if (place_[source] == 0) {
-    source_.push_back(source);
-    weight_.resize(weight_.size() + components_, Quad{});
-    place_[source] = static_cast<std::uint32_t>(source_.size());
-  }
-  return (place_[source] - 1) * components_;
+  for (std::uint32_t k = first_[node]; k < first_[node + 1]; ++k) block_of[source_[k]] = 0;
 }
 
 BlockRows BlockNetwork::rows() const {
-  return {nodes(), components_, first_.data(), source_.data(), weight_.data(), own_.data(), share_.data()};
+  const Quad* const quads = block_.data()->half;
+  return {nodes(), components_, first_.data(), source_.data(), quads, quads + 2 * own_};
 }
 
 void BlockNetwork::inputs(const Quads& bias, const Quads& V, Quads& s) const {
@@ -116,10 +152,32 @@ std::vector<BlockNetwork::Stretch> BlockNetwork::stretches(const Order& order) c
       all.push_back({{}, &order[phase++]});
       continue;
     }
-    all.push_back({std::move(nodes), nullptr});
+    all.push_back({groups_of(nodes), nullptr});
     phase += components_;
   }
   return all;
+}
+
+std::vector<FiringGroup> BlockNetwork::groups_of(const std::vector<std::uint32_t>& fired) const {
+  std::vector<FiringGroup> groups((fired.size() + 3) / 4, FiringGroup{});
+  const Quad* const own = rows().own;
+  for (FiringGroup& group : groups)
+    std::fill(std::begin(group.node), std::end(group.node), static_cast<std::uint32_t>(nodes()));
+  for (std::size_t k = 0; k < fired.size(); ++k) {
+    FiringGroup& group = groups[k / 4];
+    const std::size_t node = fired[k], lane = k % 4;
+    group.node[lane] = fired[k];
+    for (std::size_t p = 0; p < components_; ++p) {
+      group.share[p].lane[lane] = share_[node].lane[p];
+      group.bias[p].lane[lane] = bias_[node].lane[p];
+      for (std::size_t q = 0; q < components_; ++q)
+        group.own[p][q].lane[lane] = p == q ? own[2 * node].lane[p]
+                                            : own[2 * node + 1].lane[(p + q) % 3 == 0 ? 1
+                                                                     : p + q == 1     ? 0
+                                                                                      : 2];
+    }
+  }
+  return groups;
 }
 
 void BlockNetwork::fire_together(const std::vector<std::uint32_t>& phase, Quads& V, Quads& s) const {
@@ -135,14 +193,29 @@ void BlockNetwork::fire_together(const std::vector<std::uint32_t>& phase, Quads&
 // Sums here are not in the order of N's, and may leave the box by a last place.
 Vector BlockNetwork::swept(const Order& order, const Vector& V, std::uint32_t sweeps) const {
   const std::vector<Stretch> all = stretches(order);
-  Quads now = spread(V), s(now.size(), Quad{});
+  Quads plain = spread(V), s(plain.size(), Quad{});
+  std::vector<QuadPair> now(plain.size() + 1, QuadPair{}); // with the one behind the last node
+  const auto put = [&] {
+    for (std::size_t k = 0; k < plain.size(); ++k) {
+      const double* v = plain[k].lane;
+      now[k] = {{plain[k], {v[1], v[2], v[0], 0}}};
+    }
+  };
+  const auto take_out = [&] {
+    for (std::size_t k = 0; k < plain.size(); ++k) plain[k] = now[k].half[0];
+  };
+  put();
   for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep)
     for (const Stretch& stretch : all)
-      if (stretch.together)
-        fire_together(*stretch.together, now, s);
-      else
-        kernel_.sweep(rows(), bias_.data(), stretch.nodes.data(), stretch.nodes.size(), now.data());
-  return gathered(now).cwiseMin(1).cwiseMax(-1);
+      if (stretch.together) {
+        take_out();
+        fire_together(*stretch.together, plain, s);
+        put();
+      } else {
+        kernel_.sweep(rows(), stretch.groups.data(), stretch.groups.size(), now.data()->half);
+      }
+  take_out();
+  return gathered(plain).cwiseMin(1).cwiseMax(-1);
 }
 
 } // namespace hopmesh::reference

@@ -15,8 +15,14 @@ using Quads = std::vector<Quad>;
 
 class BlockNetwork {
  public:
-  /// `components`: neurons of a node, 1 to 3; 1 suits any network.
+  /// `components`: neurons of a node, 1 to 3; 1 suits any network. The block of two nodes is symmetric, as it
+  /// is in every mesh. Throws std::logic_error where it is not.
   BlockNetwork(const Network& network, Eigen::Index components, const BlockKernel& kernel = block_kernel());
+
+  /// Another network of as many nodes; much cheaper where its weights have the same places.
+  void take(const Network& network);
+  /// Other figures in the same places: [weights] in the order of the matrix, and [neurons].
+  void refill(const double* weights, const double* bias);
 
   std::size_t nodes() const { return bias_.size(); }
   const BlockKernel& kernel() const { return kernel_; }
@@ -33,25 +39,33 @@ class BlockNetwork {
   Vector swept(const Order& order, const Vector& V, std::uint32_t sweeps) const;
 
  private:
+  using Places = std::vector<Matrix::StorageIndex>;
+
   /// Some of an order's phases: those of nodes that share no weight, or a phase whose neurons all read before
   /// any is written.
   struct Stretch {
-    std::vector<std::uint32_t> nodes;
+    std::vector<FiringGroup> groups;
     const std::vector<std::uint32_t>* together = nullptr;
   };
   void lay_out(const Network& network);
-  void add_row(const Network& network, std::size_t node, std::size_t p);
-  std::size_t block_of(std::uint32_t source);
+  void find_sources(std::size_t node, std::vector<std::uint32_t>& block_of);
+  void find_places(std::size_t node, std::vector<std::uint32_t>& block_of);
+  void expect_symmetric(const double* weights) const;
+  bool has_places_of(const Network& network) const;
   BlockRows rows() const;
   bool share_nothing(const Order& order, std::size_t phase, std::vector<std::uint32_t>& nodes) const;
   std::vector<Stretch> stretches(const Order& order) const;
+  std::vector<FiringGroup> groups_of(const std::vector<std::uint32_t>& nodes) const;
   void fire_together(const std::vector<std::uint32_t>& phase, Quads& V, Quads& s) const;
 
   std::size_t components_;
   const BlockKernel& kernel_;
+  Places start_, column_;            ///< of the matrix: where rows begin, and their columns
+  std::vector<std::uint32_t> place_; ///< [weights] of the matrix: among the figures of `block_`
   std::vector<std::uint32_t> first_, source_;
-  std::vector<std::uint32_t> place_; ///< while a node is laid out: 1 + the block of a source
-  Quads weight_, own_, bias_, magnitude_, share_;
+  std::vector<QuadPair> block_; ///< those between nodes, then those of the nodes themselves
+  std::size_t own_ = 0;         ///< quads before the latter
+  Quads bias_, magnitude_, share_;
 };
 
 } // namespace hopmesh::reference

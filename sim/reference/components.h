@@ -71,4 +71,8 @@ inline double spring_term(const scene::Mesh& mesh, const scene::Spring& spring, 
   return spring.weight * stretch * stretch;
 }
 
+/// A step's network from V0, by who answers for the motion.
+Relaxation answered(const StepParameters& motion, const Network& network, const Order& order,
+                    const Vector& V0, std::uint64_t step);
+
 } // namespace hopmesh::reference

@@ -80,8 +80,8 @@ double first_scale(const scene::Mesh& mesh, const Increment& increment, const St
 class Relaxing {
  public:
   Relaxing(const scene::Mesh& mesh, const StepParameters& motion, const Order& order,
-           const Increment& increment)
-      : mesh_(mesh), motion_(motion), order_(order), increment_(increment),
+           const Increment& increment, std::uint64_t number)
+      : mesh_(mesh), motion_(motion), order_(order), increment_(increment), number_(number),
         trusted_(trusted(mesh, increment)),
         finest_(std::ldexp(largest_in(increment.predicted) / increment.h, -53)) {}
 
@@ -98,8 +98,7 @@ class Relaxing {
     const std::uint32_t before = step.relaxation.sweeps;
     step.V0 = step.relaxation.V;
     step.network = network(mesh_, increment_, step.scale, step.V0);
-    step.relaxation =
-        relax(step.network, order_, step.V0, motion_.threshold, motion_.max_sweeps, motion_.neuron);
+    step.relaxation = answered(motion_, step.network, order_, step.V0, number_);
     step.relaxation.sweeps += before;
   }
 
@@ -129,6 +128,7 @@ class Relaxing {
   const StepParameters& motion_;
   const Order& order_;
   const Increment& increment_;
+  const std::uint64_t number_;
   const double trusted_, finest_;
 };
 
@@ -269,7 +269,7 @@ Step advance_potential(const scene::Mesh& mesh, const StepParameters& motion, co
   step.predicted = about.predicted;
   step.scale = first_scale(mesh, about, state);
   step.relaxation.V = motion.formulation->start(mesh, state, step.scale);
-  Relaxing relaxing(mesh, motion, order, about);
+  Relaxing relaxing(mesh, motion, order, about, state.step);
   for (std::uint32_t expansion = 0; expansion < motion.expansions; ++expansion) relaxing.relax_in_range(step);
   Vector change = Vector::Zero(3 * nodes_of(mesh));
   for (Eigen::Index node = 0; node < nodes_of(mesh); ++node)

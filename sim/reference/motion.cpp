@@ -50,6 +50,12 @@ State initial_state(const scene::Mesh& mesh, const Formulation& formulation) {
   return state;
 }
 
+Relaxation answered(const StepParameters& motion, const Network& network, const Order& order,
+                    const Vector& V0, std::uint64_t step) {
+  if (motion.answer) return motion.answer(network, order, V0, step);
+  return relax(network, order, V0, motion.threshold, motion.max_sweeps, motion.neuron);
+}
+
 Step advance(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {
   Step step = motion.formulation->advance(mesh, motion, order, state);
   state.V = step.relaxation.V;

@@ -83,7 +83,7 @@ Step advance_probe(const scene::Mesh& mesh, const StepParameters& motion, const 
     const std::uint32_t sweeps_before = step.relaxation.sweeps;
     step.V0 = step.relaxation.V;
     step.network = network(mesh, motion, step.predicted, step.V0);
-    step.relaxation = relax(step.network, order, step.V0, motion.threshold, motion.max_sweeps, motion.neuron);
+    step.relaxation = answered(motion, step.network, order, step.V0, state.step);
     step.relaxation.sweeps += sweeps_before;
   }
   move(mesh, motion, step, state);

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct Relaxation {
   bool converged = false;
 };
 
+/// Whoever answers a network otherwise than relax() does: from V0, in the step so numbered.
+using Answerer = std::function<Relaxation(const Network& network, const Order& order, const Vector& V0,
+                                          std::uint64_t step)>;
+
 struct Formulation;
 extern const Formulation probe, backward_euler, bdf2, statics;
 
@@ -47,6 +52,7 @@ struct StepParameters {
   Vector node_force; ///< incremental: [3 * nodes], each node's own beside it; empty: none
   double threshold;
   std::uint32_t max_sweeps, expansions;
+  Answerer answer = nullptr; ///< none: relax() by the threshold and max_sweeps
 };
 
 /// Motion of a scene; force is gravity plus wind.

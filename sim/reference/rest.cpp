@@ -40,6 +40,12 @@ class Resting {
     return rest;
   }
 
+  Vector go_down() {
+    measure();
+    descend();
+    return network_.gathered(V_);
+  }
+
  private:
   // What no weight reaches goes where its bias says.
   void set_out(std::size_t node, int p) {
@@ -159,6 +165,10 @@ class Resting {
 Rest rest_from(const BlockNetwork& network, const Vector& V, std::uint32_t most_products) {
   if (V.size() == 0) return {V, 0, 0, true};
   return Resting(network, V, most_products).come_to_rest();
+}
+
+Vector way_down(const BlockNetwork& network, const Vector& V, std::uint32_t products) {
+  return V.size() == 0 ? V : Resting(network, V, products).go_down();
 }
 
 double energy_above(const BlockNetwork& network, const Vector& rest, const Vector& V) {

@@ -18,6 +18,9 @@ struct Rest {
 /// one that the way down leads to, and may be none of the deepest.
 Rest rest_from(const BlockNetwork& network, const Vector& V, std::uint32_t most_products = 200'000);
 
+/// Some of that way, for so many products: nowhere on it does the energy climb.
+Vector way_down(const BlockNetwork& network, const Vector& V, std::uint32_t products);
+
 /// E(V) - E(rest), without the rounding of two large energies. Where -W is positive definite it is below 0 by
 /// rounding at most.
 double energy_above(const BlockNetwork& network, const Vector& rest, const Vector& V);

@@ -107,8 +107,10 @@ RunStreams streams_of(const Checkpoint& c, const levels::Level& level, const fs:
 }
 
 /// The last row holds the hash of the state: table and checkpoint prove each other.
-std::vector<levels::StepRow> rows_of(const Checkpoint& c, const RunStreams& streams) {
-  std::vector<levels::StepRow> rows = read_rows(streams.table.found, streams.table.bytes);
+StepLog rows_of(const Checkpoint& c, const RunStreams& streams) {
+  StepLog rows;
+  each_row(streams.table.found, streams.table.bytes, step_columns(),
+           [&](const levels::StepRow& row) { rows.push_back(row); });
   if (rows.size() != c.state.step)
     throw c.error("steps.csv", fmt::format("{} rows", rows.size()), fmt::format("{}", c.state.step));
   const levels::StepState& s = c.state;

@@ -4,6 +4,7 @@
 
 #include "sim/files/folder_lock.h"
 #include "sim/run/checkpoint.h"
+#include "sim/run/step_log.h"
 
 namespace hopmesh::run {
 
@@ -19,7 +20,7 @@ struct ResumedRun {
   Checkpoint saved;
   scene::Inputs inputs;
   std::unique_ptr<levels::BuiltMesh> mesh;
-  std::vector<levels::StepRow> rows; ///< of the steps done
+  StepLog rows; ///< of the steps done
   RunStreams streams;
 };
 

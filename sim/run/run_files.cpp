@@ -8,13 +8,13 @@
 #include "sim/run/array_info.h"
 #include "sim/run/hardware_time.h"
 #include "sim/run/run_picture.h"
-#include "sim/run/unrest.h"
 #include "version.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
+#include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace hopmesh::run {
@@ -44,27 +44,29 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// As JSON, without a tree of a million leaves.
-std::string hashes_of(const StepRows& rows) {
-  std::string text = "[";
-  for (const levels::StepRow& row : rows)
-    fmt::format_to(std::back_inserter(text), "{}\n    \"{:016x}\"", text.size() > 1 ? "," : "", row.hash);
-  return text + (rows.empty() ? "]" : "\n  ]");
+/// As JSON, piece by piece from the rows on the disk: there may be millions.
+void write_hashes(const std::filesystem::path& table, const std::function<void(std::string_view)>& write) {
+  std::ifstream file(table, std::ios::binary);
+  std::string line, before = "[";
+  std::getline(file, line); // the header
+  for (; std::getline(file, line); before = ",")
+    write(fmt::format("{}\n    \"{}\"", before, line.substr(line.rfind(',') + 1)));
+  write(before == "[" ? "[]" : "\n  ]");
 }
 
 /// The colour of the report's pill in a word.
 const char* status_of(const RunResult& result) {
   if (result.outcome == Outcome::diverged) return "bad";
-  return std::any_of(result.rows.begin(), result.rows.end(), is_unrested) ? "doubtful" : "good";
+  return result.rows.unrest().unrested > 0 ? "doubtful" : "good";
 }
 
-double hardware_seconds(const StepRows& rows, double clock_mhz) {
+double hardware_seconds(const StepLog& rows, double clock_mhz) {
   return HardwareTime{count_of(rows, &levels::StepRow::cycles, levels::Summary::sum),
                       count_of(rows, &levels::StepRow::bus_cycles, levels::Summary::sum)}
       .seconds(clock_mhz);
 }
 
-void add_totals(Json& json, levels::Subject subject, const StepRows& rows) {
+void add_totals(Json& json, levels::Subject subject, const StepLog& rows) {
   for (const RunTotal& t : totals_about(subject, rows))
     json[t.total->key] = t.is_count ? Json(static_cast<std::uint64_t>(t.value)) : Json(t.value);
 }
@@ -114,9 +116,7 @@ void RunFiles::finish(const RunResult& result, const levels::Mover& motion) {
   else // what an earlier run at a level with codes left here is not of this run
     discard("outputs_raw.npy");
   table_.commit();
-  std::string told = manifest(result, hashes_of(result.rows));
-  files::write_file(folder_ / "manifest.json", told);
-  if (result.rows.size() > most_points) told = manifest(result, "\"in manifest.json\"");
+  std::string told = write_manifest(result);
   files::write_file(folder_ / "stats.json",
                     statistics(result, motion)); // kept if the pictures cannot be written
   auto view = run_picture(facts_, mesh_, result, folder_ / "positions.npy", std::move(told));
@@ -157,7 +157,7 @@ void RunFiles::discard(const std::string& name) const {
 }
 
 std::string RunFiles::statistics(const RunResult& result, const levels::Mover& motion) const {
-  const StepRows& rows = result.rows;
+  const StepLog& rows = result.rows;
   const double s = result.wall_seconds;
   const std::uint64_t updates = neuron_updates(rows, mesh_);
   const auto a_second = [s](std::uint64_t count) { return Json(s > 0 ? static_cast<double>(count) / s : 0); };
@@ -167,6 +167,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
             {"neurons", mesh_.topology().neurons()}, {"steps", rows.size()}};
   add_totals(json, Subject::relaxation, rows);
   if (!rows.empty() && rows.front().fall_left) add_totals(json, Subject::rest, rows);
+  if (!rows.empty() && rows.front().fall_seen) add_totals(json, Subject::glance, rows);
   json["neuron_updates"] = updates;
   json["wall_seconds"] = s;
   json["steps_per_second"] = a_second(rows.size());
@@ -192,7 +193,23 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   return text_of(json);
 }
 
-std::string RunFiles::manifest(const RunResult& result, const std::string& hashes) const {
+// What the report tells of it: without the hashes of more steps than it draws.
+std::string RunFiles::write_manifest(const RunResult& result) const {
+  const std::string head = manifest_head(result) + ",\n  \"step_hashes\": ", end = "\n}\n";
+  const bool all = result.rows.size() <= most_points;
+  std::string told = head;
+  files::OutputFile file(folder_ / "manifest.json");
+  file.write(head);
+  write_hashes(folder_ / "steps.csv", [&](std::string_view text) {
+    file.write(text);
+    if (all) told += text;
+  });
+  file.write(end);
+  file.commit();
+  return told + (all ? end : "\"in manifest.json\"" + end);
+}
+
+std::string RunFiles::manifest_head(const RunResult& result) const {
   Json json{
       {"program", "hopmesh"},
       {"version", version},
@@ -209,7 +226,7 @@ std::string RunFiles::manifest(const RunResult& result, const std::string& hashe
       {"mesh_hash", fmt::format("{:016x}", mesh_hash_)},
       {"image_hash", image_ ? Json(fmt::format("{:016x}", *image_hash())) : Json(nullptr)}};
   const std::string text = text_of(json);
-  return fmt::format("{},\n  \"step_hashes\": {}\n}}\n", text.substr(0, text.size() - 3), hashes);
+  return text.substr(0, text.size() - 3);
 }
 
 } // namespace hopmesh::run

@@ -40,8 +40,9 @@ class RunFiles : public StepSink {
   void overlay(const levels::Mover& motion) const;
   void discard(const std::string& name) const;
   std::string statistics(const RunResult& result, const levels::Mover& motion) const;
-  /// `hashes`: of the steps, as JSON.
-  std::string manifest(const RunResult& result, const std::string& hashes) const;
+  std::string write_manifest(const RunResult& result) const;
+  /// But for the hashes of the steps, and the end.
+  std::string manifest_head(const RunResult& result) const;
 
   std::vector<std::size_t> place_shape() const { return {mesh_.nodes(), 3}; }
   std::vector<std::size_t> code_shape() const { return {mesh_.nodes(), mesh_.components()}; }

@@ -5,7 +5,6 @@
 #include "sim/pictures/coarse_view.h"
 #include "sim/run/array_info.h"
 #include "sim/run/hardware_time.h"
-#include "sim/run/unrest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +43,7 @@ void add_frames(const std::filesystem::path& positions, double time_step, pictur
 }
 
 /// Rivals have no neurons, levels without codes no clock, and the reference is not always asked.
-bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& rows) {
+template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& facts, const Rows& rows) {
   switch (subject) {
   case Subject::motion:
     return true;
@@ -52,6 +51,8 @@ bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& ro
     return !rows.empty() && rows.front().sweeps > 0;
   case Subject::rest:
     return !rows.empty() && rows.front().fall_left.has_value();
+  case Subject::glance:
+    return !rows.empty() && rows.front().fall_seen.has_value();
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
@@ -61,7 +62,7 @@ bool is_shown(levels::Subject subject, const RunFacts& facts, const StepRows& ro
   return false;
 }
 
-void add_totals(levels::Subject subject, const StepRows& rows, std::vector<pictures::Figure>& lines) {
+void add_totals(levels::Subject subject, const StepLog& rows, std::vector<pictures::Figure>& lines) {
   for (const RunTotal& t : totals_about(subject, rows))
     if (t.total->name) lines.push_back({t.total->name, t.text()});
 }
@@ -71,7 +72,7 @@ std::string hardware_text(const HardwareTime& time, double mhz) {
                      time.seconds(mhz), mhz, 100 * time.bus_share());
 }
 
-FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels::BuiltMesh& mesh,
+FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::BuiltMesh& mesh,
                       double seconds) {
   const auto sum = [&](std::uint64_t levels::StepRow::*figure) {
     return count_of(rows, figure, levels::Summary::sum);
@@ -87,7 +88,8 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
   lines.push_back({"steps/s", fmt::format("{:.1f}", rate(rows.size()))});
   if (is_shown(Subject::relaxation, facts, rows)) {
     add_totals(Subject::relaxation, rows, lines);
-    if (is_shown(Subject::rest, facts, rows)) add_totals(Subject::rest, rows, lines);
+    for (const Subject subject : {Subject::rest, Subject::glance})
+      if (is_shown(subject, facts, rows)) add_totals(subject, rows, lines);
     lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }
   if (is_shown(Subject::clock, facts, rows)) {
@@ -105,7 +107,7 @@ FigureTable run_table(const RunFacts& facts, const StepRows& rows, const levels:
   return table;
 }
 
-FigureTable accuracy_table(const StepRows& rows) {
+FigureTable accuracy_table(const StepLog& rows) {
   FigureTable table{"Against the double reference, step by step", {}};
   for (const Subject subject : {Subject::reference, Subject::network})
     add_totals(subject, rows, table.second);
@@ -150,14 +152,15 @@ std::vector<std::size_t> rows_shown(std::size_t rows, std::size_t nodes) {
   return shown;
 }
 
-std::size_t steps_a_point(std::size_t steps) {
-  return std::max<std::size_t>(1, (steps + most_points - 1) / most_points);
+std::size_t steps_a_point(const StepLog& rows) {
+  const std::size_t least = std::max<std::size_t>(1, (rows.size() + most_points - 1) / most_points);
+  return (least + rows.stride() - 1) / rows.stride() * rows.stride();
 }
 
-StepRows rows_drawn(const StepRows& rows) {
+StepRows rows_drawn(const StepLog& rows) {
   StepRows drawn;
-  const std::size_t stride = steps_a_point(rows.size());
-  for (std::size_t k = 0; k < rows.size(); k += stride) drawn.push_back(rows[k]);
+  const std::size_t stride = steps_a_point(rows) / rows.stride();
+  for (std::size_t k = 0; k < rows.kept().size(); k += stride) drawn.push_back(rows.kept()[k]);
   if (!rows.empty() && drawn.back().step != rows.back().step) drawn.push_back(rows.back());
   return drawn;
 }
@@ -204,7 +207,7 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
                               facts.level->has_codes() ? ", array " + facts.inputs.array.name : "");
   view.outcome = result.sentence;
   view.good = result.outcome != Outcome::diverged;
-  view.rested = std::none_of(result.rows.begin(), result.rows.end(), is_unrested);
+  view.rested = result.rows.unrest().unrested == 0;
   view.crest = scene.mesh.grid.has_value();
   view.up = scene::axis_names[static_cast<std::size_t>(scene.mesh.up)];
   view.manifest = std::move(manifest);
@@ -215,7 +218,7 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
   for (const levels::StepRow& row : drawn) view.step_times.push_back(row.time);
   view.series = series_of(facts, drawn);
   if (drawn.size() < result.rows.size())
-    view.subtitle += fmt::format("; charts show one step in {}", steps_a_point(result.rows.size()));
+    view.subtitle += fmt::format("; charts show one step in {}", steps_a_point(result.rows));
   return view;
 }
 

@@ -28,8 +28,8 @@ pictures::RunView run_picture(const RunFacts& facts, const levels::BuiltMesh& me
                               const std::filesystem::path& positions, std::string manifest);
 
 /// Of so many steps the report's curves show one in this number, and the last.
-std::size_t steps_a_point(std::size_t steps);
-StepRows rows_drawn(const StepRows& rows);
+std::size_t steps_a_point(const StepLog& rows);
+StepRows rows_drawn(const StepLog& rows);
 
 /// What a browser can bear: a mesh of more than most_report_nodes with its nodes merged, and told so.
 pictures::RunView report_view(pictures::RunView view);

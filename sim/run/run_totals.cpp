@@ -95,18 +95,26 @@ std::string RunTotal::text() const {
 
 std::vector<RunTotal> totals_about(levels::Subject subject, const StepRows& rows,
                                    const StepColumns& columns) {
+  return totals_about(subject, columns, [&](const levels::StepFigure& figure, Summary how) {
+    return total_of(rows, figure, how);
+  });
+}
+
+std::vector<RunTotal> totals_about(levels::Subject subject, const StepColumns& columns,
+                                   const TotalMaker& total_by) {
   std::vector<RunTotal> all;
   for (const levels::StepColumn& column : columns)
     for (const levels::Total& total : column.totals)
       if (column.subject == subject && total.key)
-        all.push_back({&total, is_count(column.figure, total.how), total_of(rows, column.figure, total.how)});
+        all.push_back({&total, is_count(column.figure, total.how), total_by(column.figure, total.how)});
   std::stable_sort(all.begin(), all.end(),
                    [](const RunTotal& a, const RunTotal& b) { return a.total->how < b.total->how; });
   return all;
 }
 
-std::uint64_t neuron_updates(const StepRows& rows, const levels::BuiltMesh& mesh) {
-  return count_of(rows, &levels::StepRow::sweeps, Summary::sum) * mesh.topology().neurons();
+bool same_figure(const levels::StepFigure& a, const levels::StepFigure& b) {
+  const auto same = [&](const auto& member) { return member == std::get<std::decay_t<decltype(member)>>(b); };
+  return a.index() == b.index() && std::visit(same, a);
 }
 
 double peak_memory_mb() {

@@ -3,6 +3,8 @@
 
 #include "sim/run/step_table.h"
 
+#include <functional>
+
 namespace hopmesh::run {
 
 using StepRows = std::vector<levels::StepRow>;
@@ -30,8 +32,14 @@ struct RunTotal {
 std::vector<RunTotal> totals_about(levels::Subject subject, const StepRows& rows,
                                    const StepColumns& columns = step_columns());
 
-/// An update is one neuron firing once.
-std::uint64_t neuron_updates(const StepRows& rows, const levels::BuiltMesh& mesh);
+/// As `total` has them.
+using TotalMaker = std::function<double(const levels::StepFigure&, levels::Summary)>;
+std::vector<RunTotal> totals_about(levels::Subject subject, const StepColumns& columns,
+                                   const TotalMaker& total);
+
+/// A figure of a row is the one of another.
+bool same_figure(const levels::StepFigure& a, const levels::StepFigure& b);
+
 double peak_memory_mb(); ///< of this process so far
 
 } // namespace hopmesh::run

@@ -1,7 +1,6 @@
 #include "sim/run/simulation.h"
 
 #include "sim/levels/processor_time.h"
-#include "sim/run/unrest.h"
 
 #include <algorithm>
 #include <chrono>
@@ -56,9 +55,6 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
   const double used_before = levels::processor_seconds();
   RunResult result = std::move(earlier);
   result.sentence = all_done(steps);
-  constexpr std::uint64_t foreseen = 1u
-                                     << 20; // rows; a table that grows by doubling takes half as much again
-  result.rows.reserve(std::min(steps, foreseen));
   while (result.rows.size() < steps) {
     if (stop) result.outcome = Outcome::interrupted;
     if (stop || !one_step(motion, steps, sinks, result)) break;

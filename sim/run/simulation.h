@@ -3,6 +3,7 @@
 
 #include "sim/levels/mover.h"
 #include "sim/run/outcome.h"
+#include "sim/run/step_log.h"
 
 #include <atomic>
 
@@ -14,7 +15,7 @@ inline constexpr double most_stretch = 10.0;
 struct RunResult {
   Outcome outcome = Outcome::finished;
   std::string sentence; ///< how it ended, for people
-  std::vector<levels::StepRow> rows;
+  StepLog rows;
   double wall_seconds = 0;
   double processor_seconds = 0; ///< of all threads, without an earlier process
 };

@@ -114,13 +114,18 @@ void write_row(files::CsvWriter& table, const levels::StepRow& row, const StepCo
   table.end_row();
 }
 
-std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes,
-                                       const StepColumns& columns) {
+void each_row(const std::filesystem::path& table, std::uint64_t bytes, const StepColumns& columns,
+              const std::function<void(const levels::StepRow&)>& use) {
   std::ifstream file(table, std::ios::binary);
-  std::vector<levels::StepRow> rows;
   int number = 0;
   for (std::string line; bytes > 0 && std::getline(file, line); bytes -= std::min(bytes, line.size() + 1))
-    if (++number > 1) rows.push_back(row_of(Cells(line, table.string(), number), columns));
+    if (++number > 1) use(row_of(Cells(line, table.string(), number), columns));
+}
+
+std::vector<levels::StepRow> read_rows(const std::filesystem::path& table, std::uint64_t bytes,
+                                       const StepColumns& columns) {
+  std::vector<levels::StepRow> rows;
+  each_row(table, bytes, columns, [&](const levels::StepRow& row) { rows.push_back(row); });
   return rows;
 }
 

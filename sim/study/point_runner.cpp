@@ -63,7 +63,8 @@ StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& me
   StabilityFacts facts;
   facts.diverged = result.outcome == run::Outcome::diverged;
   facts.outputs = mesh.topology().neurons();
-  facts.friction = scene::kept_speed(inputs.scene.motion, inputs.scene.force);
+  facts.friction = std::pow(scene::kept_speed(inputs.scene.motion, inputs.scene.force),
+                            static_cast<double>(result.rows.stride()));
   return facts;
 }
 
@@ -82,7 +83,7 @@ PointRow run_point(const Point& point, const scene::Inputs& inputs, const std::v
   row.host_seconds = std::max(0.0, result.processor_seconds - motion->judging_seconds());
   sum_up(result, inputs, mesh, row);
   row.omega = scene::largest_frequency(mesh.mesh());
-  row.stability = classify(result.rows, facts_of(inputs, mesh, result));
+  row.stability = classify(result.rows.kept(), facts_of(inputs, mesh, result));
   if (row.steps > 0) {
     const FreeMotion reference = methods.reference(inputs, mesh, times, row.steps, stop);
     if (!reference.last.empty()) row.position_error = run::rms_distance(motion->positions(), reference.last);

@@ -38,7 +38,7 @@ inline constexpr std::size_t least_rows = 8; ///< fewer say nothing of energy
 struct StabilityFacts {
   bool diverged = false;
   std::size_t outputs = 1;
-  double friction = 1;
+  double friction = 1; ///< what it leaves of a velocity from a row to the next
 };
 
 Stability classify(const std::vector<levels::StepRow>& rows, const StabilityFacts& facts);

@@ -16,6 +16,8 @@ class Twin : public run::StepSink {
  public:
   Twin(const scene::Scene& scene, const levels::BuiltMesh& mesh, const spec::ArraySpec& array);
   void step(const levels::StepRow& row, const levels::Mover& reference) override;
+  /// As levels::ReferenceMover::answer_after(): a twin has to answer as the reference beside it.
+  void answer_after(reference::SweepsOfSteps sweeps) { twin_.answer_after(std::move(sweeps)); }
 
   /// Rms over nodes after each step, m; infinite from where the twin diverged.
   const std::vector<double>& apart() const { return apart_; }

@@ -95,7 +95,7 @@ TEST_F(CliHelp, OfEveryVerbTellsEveryFlag) {
   expect_flags("network", {"step", "out"});
   expect_flags("solvers", {"step", "gap", "max-sweeps", "cold", "still", "time-step", "out"});
   expect_flags("info", {"toml"});
-  expect_flags("budget", {"steps", "time", "rest-sweeps", "out"});
+  expect_flags("budget", {"steps", "time", "out"});
   expect_flags("size", {"error", "against", "time-per-step", "steps", "out"});
   expect_flags("vectors", {"step", "sweeps", "random", "seed", "neurons", "format", "taps", "out", "blank",
                            "check", "level"});

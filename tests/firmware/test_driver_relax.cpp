@@ -115,6 +115,19 @@ TEST_F(Relax, OnePowerOfTwoSoThatTheLargestWeightAndBiasFit) {
     }
 }
 
+TEST_F(Relax, CountsWhatRoundingMakesZero) {
+  open_with({});
+  fill(0, 0);
+  mesh.weight[0] = 0.75, mesh.weight[1] = 1e-9, mesh.bias[0] = 1, mesh.bias[1] = 1e-12, mesh.bias[2] = 0.5;
+  expect_relax(array, shift(), 0, 1, some_answer);
+  EXPECT_EQ(relax(0, 1), HM_OK);
+  EXPECT_EQ(driver.vanished, 2u);
+  fill(0.75, 1);
+  expect_relax(array, shift(), 0, 1, some_answer);
+  EXPECT_EQ(relax(0, 1), HM_OK);
+  EXPECT_EQ(driver.vanished, 0u) << "of the last load alone";
+}
+
 TEST_F(Relax, EmptyWeightsOrBiasesDoNotDecideTheScale) {
   for (int k = 0; k < 3; ++k) {
     open_with({});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/input/key_table.h"
-#include "sim/levels/step_row.h"
+#include "sim/levels/step_columns.h"
 #include "sim/study/point_row.h"
 
 #include <string>

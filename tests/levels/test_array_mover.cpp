@@ -78,6 +78,30 @@ TEST(ArrayMover, RowsTellStepTimeCyclesAndBus) {
   EXPECT_EQ(rig.port.ended, rig.port.begun);
 }
 
+// Sweeps that end too early leave much, and the host need not ask the reference to see it.
+TEST(ArrayMover, TheHostSeesWhatAStepLeaves) {
+  scene::Scene scene = grid_scene(6, 6);
+  scene.motion.formulation = scene::Formulation::incremental;
+  for (const std::int64_t sweeps : {2, 2000}) {
+    scene.relax.max_sweeps = sweeps;
+    scene.relax.threshold = 1e-7;
+    Rig rig(scene);
+    for (int k = 0; k < 17; ++k) {
+      const StepRow row = rig.motion.advance();
+      ASSERT_TRUE(row.fall_left);
+      ASSERT_EQ(row.fall_seen.has_value(), k == 0 || k == 8 || k == 16) << k;
+      if (!row.fall_seen) continue;
+      EXPECT_LE(*row.fall_seen, *row.fall_left + 1e-9);
+      if (*row.fall_left > 0.15) {
+        EXPECT_GT(*row.fall_seen, 0.1);
+      }
+      if (sweeps == 2000) {
+        EXPECT_LT(*row.fall_left, 0.01);
+      }
+    }
+  }
+}
+
 TEST(ArrayMover, WithoutCheckTheMotionIsTheSame) {
   Rig with(grid_scene(3, 3)), without(grid_scene(3, 3), fine_array(), false);
   for (int k = 0; k < 3; ++k) {

@@ -98,6 +98,14 @@ TEST(BlockNetwork, InputsAreWVPlusI) {
   }
 }
 
+std::vector<const BlockKernel*> runnable_kernels() {
+  std::vector<const BlockKernel*> kernels{&block_kernel()};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) kernels.push_back(&avx2_kernel);
+#endif
+  return kernels;
+}
+
 TEST(BlockNetwork, EveryKernelGivesTheSameBits) {
   Random random(814);
   for (int k = 0; k < 60; ++k) {
@@ -105,11 +113,44 @@ TEST(BlockNetwork, EveryKernelGivesTheSameBits) {
     const Vector V = random_outputs(random, mesh);
     const Network net = network(mesh, random_motion(random), initial_state(mesh).position, V);
     const Eigen::Index n = components(mesh);
-    const BlockNetwork plain(net, n, portable_kernel), wide(net, n);
-    const Order order = one_by_one(V.size());
-    EXPECT_EQ(plain.swept(order, V, 9), wide.swept(order, V, 9));
-    EXPECT_EQ(plain.swept(all_together(V.size()), V, 9), wide.swept(all_together(V.size()), V, 9));
+    const BlockNetwork plain(net, n, portable_kernel);
+    for (const BlockKernel* kernel : runnable_kernels()) {
+      const BlockNetwork wide(net, n, *kernel);
+      const Order order = one_by_one(V.size());
+      EXPECT_EQ(plain.swept(order, V, 9), wide.swept(order, V, 9)) << kernel->name;
+      EXPECT_EQ(plain.swept(all_together(V.size()), V, 9), wide.swept(all_together(V.size()), V, 9));
+    }
   }
+}
+
+// A mesh whose springs have moved has its weights in the same places, another mesh has not.
+TEST(BlockNetwork, TakesOtherNetworksAsIfItWereNew) {
+  Random random(815);
+  const bool planar = random.chance(0.5);
+  const scene::Mesh mesh = random_mesh(random, 8, planar), other = random_mesh(random, 8, planar);
+  const StepParameters motion = random_motion(random);
+  const Eigen::Index n = components(mesh);
+  std::vector<Network> networks;
+  for (const scene::Mesh* of : {&mesh, &mesh, &other, &mesh}) {
+    const Vector V = random_outputs(random, *of);
+    networks.push_back(network(*of, motion, initial_state(*of).position, V));
+  }
+  BlockNetwork taking(networks[0], n);
+  for (const Network& net : networks) {
+    taking.take(net);
+    const Vector V = 0.5 * random_outputs(random, mesh);
+    EXPECT_EQ(taking.swept(one_by_one(V.size()), V, 5),
+              BlockNetwork(net, n).swept(one_by_one(V.size()), V, 5));
+  }
+}
+
+TEST(BlockNetwork, RefusesABlockThatIsNotSymmetric) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Constant(4, 4, -1);
+  const Vector I = Vector::Ones(4);
+  EXPECT_NO_THROW(BlockNetwork(network_of(W, I), 2));
+  W(0, 3) = -2; // W(1, 2) lies across from it in the block of the two nodes
+  EXPECT_THROW(BlockNetwork(network_of(W, I), 2), std::logic_error);
+  EXPECT_NO_THROW(BlockNetwork(network_of(W, I), 1));
 }
 
 TEST(BlockNetwork, ANetworkWithoutNeuronsIsOne) {

@@ -43,10 +43,11 @@ TEST(RowsShown, TwoAtLeastHoweverLargeTheMesh) {
 
 TEST(RunPicture, CurvesOfLongRunsShowEveryNthStepAndTheLast) {
   const auto steps_of = [](std::size_t count) {
-    run::StepRows rows(count);
-    for (std::size_t k = 0; k < count; ++k) rows[k].step = k;
+    run::StepLog rows;
+    levels::StepRow row;
+    for (row.step = 0; row.step < count; ++row.step) rows.push_back(row);
     std::vector<std::uint64_t> steps;
-    for (const auto& row : run::rows_drawn(rows)) steps.push_back(row.step);
+    for (const auto& drawn : run::rows_drawn(rows)) steps.push_back(drawn.step);
     return steps;
   };
   EXPECT_THAT(steps_of(0), ElementsAre());
@@ -56,6 +57,10 @@ TEST(RunPicture, CurvesOfLongRunsShowEveryNthStepAndTheLast) {
   EXPECT_EQ(steps.size(), run::most_points + 1);
   EXPECT_EQ(steps[1], 10u);
   EXPECT_EQ(steps.back(), 10 * run::most_points - 1);
+  const auto of_thinned = steps_of(25 * run::most_points + 1); // of which every fourth was kept
+  EXPECT_LE(of_thinned.size(), run::most_points + 1);
+  EXPECT_EQ(of_thinned[1], 28u);
+  EXPECT_EQ(of_thinned.back(), 25 * run::most_points);
 }
 
 TEST(RunPicture, AMeshThatNoBrowserBearsIsDrawnCoarser) {

@@ -13,7 +13,7 @@ run::StepRows rested(std::size_t steps) {
 }
 
 TEST(Unrest, IsNotTalkedOfWhereThereIsNone) {
-  EXPECT_EQ(run::unrest_text({}), "");
+  EXPECT_EQ(run::unrest_text(run::StepRows()), "");
   EXPECT_EQ(run::unrest_text(rested(3)), "");
   run::StepRows rivals(3); // no sweeps: nothing that could come to rest
   EXPECT_EQ(run::unrest_text(rivals), "");
@@ -36,6 +36,19 @@ TEST(Unrest, NamesStepsThatCallThemselvesAtRestAndAreNot) {
   rows[2].converged = false;
   EXPECT_EQ(run::unrest_text(rows),
             "1 of 4 steps ended at max_sweeps, 1 of 4 steps left more than a tenth of their fall.");
+}
+
+TEST(Unrest, GoesByWhatTheHostSawWhereNobodyLookedForTheRest) {
+  auto rows = rested(3);
+  rows[0].fall_seen = 0.3, rows[1].fall_seen = 0.05;
+  EXPECT_EQ(run::unrest_text(rows), "1 of 2 steps looked at left more than a tenth of their fall.");
+  rows[2].converged = false;
+  EXPECT_EQ(run::unrest_text(rows),
+            "1 of 3 steps ended at max_sweeps, 1 of 2 steps looked at left more than a tenth of their fall.");
+  rows[2].converged = true, rows[2].fall_seen = 0;
+  EXPECT_EQ(run::unrest_text(rows), "1 of 3 steps left more than a tenth of their fall.");
+  rows[0].fall_left = 0.02; // a network that is not definite has several rests
+  EXPECT_EQ(run::unrest_text(rows), "");
 }
 
 TEST(Unrest, IsNotGuessedFromTheInput) {

@@ -14,7 +14,7 @@ namespace {
 struct BudgetOptions {
   input::InputWords words;
   std::string out;
-  std::int64_t steps = 0, rest_sweeps = 20'000;
+  std::int64_t steps = 0;
   double time = 0;
 };
 
@@ -35,7 +35,7 @@ int budget(const BudgetOptions& o) {
   const auto folder = results_folder(o.out, p.inputs.scene.name + "-budget");
   study::check_budget(p, folder);
   levels::catch_interrupts();
-  const auto budget = study::work_out_budget(p, o.rest_sweeps, folder);
+  const auto budget = study::work_out_budget(p, folder);
   if (!budget) return interrupted;
   fmt::print("{}", study::text_of(p, *budget));
   if (!budget->rows.empty()) {
@@ -50,15 +50,11 @@ int budget(const BudgetOptions& o) {
 void add_budget(CLI::App& program, int& exit_code) {
   auto o = std::make_shared<BudgetOptions>();
   CLI::App* verb = program.add_subcommand(
-      "budget", "what a run's distance from the truth is made of: words, sweeps, formulation, step");
+      "budget", "what a run's distance from the truth is made of: rounding, stopping, formulation, step");
   add_common(*verb, o->words);
   auto* steps =
       verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--time", o->time, "seconds to do, instead")->check(positive_number())->excludes(steps);
-  verb->add_option("--rest-sweeps", o->rest_sweeps,
-                   "at most so many sweeps a step where the reference relaxes to rest")
-      ->check(whole_number(1))
-      ->capture_default_str();
   verb->add_option("--out", o->out, "results folder (out/NAME-budget): budget.csv, budget.svg, the truth");
   verb->footer("Example:\n  hopmesh budget banner --time 0.1 --out out/budget\n"
                "Exit: 0 done, 1 a motion diverged (the budget ends before), 2 bad input, 130 interrupted.");

@@ -16,7 +16,6 @@ namespace hopmesh::study {
 
 namespace {
 
-constexpr double at_rest = 1e-14; // of an output in double: nothing moves any more
 constexpr std::uint64_t most_times = 10;
 
 std::vector<double> times_of(const scene::MotionKeys& motion) {
@@ -29,11 +28,17 @@ std::vector<double> times_of(const scene::MotionKeys& motion) {
   return times;
 }
 
-scene::Scene at_rest_scene(scene::Scene scene, std::int64_t rest_sweeps) {
-  scene.relax.threshold = std::min(scene.relax.threshold, at_rest);
-  scene.relax.max_sweeps = std::max(scene.relax.max_sweeps, rest_sweeps);
-  return scene;
-}
+/// Keeps the sweeps of an array's steps.
+class SweepWatch : public run::StepSink {
+ public:
+  explicit SweepWatch(const levels::ArrayMover& array) : array_(array) {}
+  void step(const levels::StepRow&, const levels::Mover&) override { of.push_back(array_.last_sweeps()); }
+
+  reference::SweepsOfSteps of;
+
+ private:
+  const levels::ArrayMover& array_;
+};
 
 /// Adds a link to the chain; false where its motion was interrupted.
 bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion, Budget& budget,
@@ -47,8 +52,7 @@ bool fly(levels::Mover& mover, BudgetLink link, const scene::MotionKeys& motion,
     budget.troubles.push_back(fmt::format("{}: {}", link.motion, result.sentence));
   const std::uint64_t unfinished =
       run::count_of(result.rows, &levels::StepRow::converged, levels::Summary::unmet);
-  if (unfinished > 0)
-    link.motion += fmt::format(" ({} of {} steps ended by their sweeps)", unfinished, steps);
+  if (unfinished > 0) link.motion += fmt::format(" ({} of {} steps not at rest)", unfinished, steps);
   link.at = std::move(snapshots.at);
   budget.chain.push_back(std::move(link));
   return result.outcome != run::Outcome::interrupted;
@@ -61,11 +65,11 @@ std::vector<std::optional<double>> at_times(const Twin& twin, const Budget& budg
 }
 
 /// False where the user stopped it.
-bool fly_all(const levels::Prepared& p, std::int64_t rest_sweeps, Budget& budget) {
+bool fly_all(const levels::Prepared& p, Budget& budget) {
   const scene::Scene& scene = p.inputs.scene;
   const levels::ReadyLevel array = levels::make_ready(levels::default_level(), p);
-  levels::ReferenceMover same(scene, *p.mesh, p.inputs.array);
-  levels::ReferenceMover rest(at_rest_scene(scene, rest_sweeps), *p.mesh, p.inputs.array);
+  SweepWatch sweeps(*array.array);
+  levels::ReferenceMover same(scene, *p.mesh, p.inputs.array), rest(scene, *p.mesh, p.inputs.array);
   std::optional<levels::ExactStep> exact;
   if (levels::ExactStep::exists_for(scene)) exact.emplace(scene, *p.mesh);
   Twin twin(scene, *p.mesh, p.inputs.array);
@@ -73,11 +77,13 @@ bool fly_all(const levels::Prepared& p, std::int64_t rest_sweeps, Budget& budget
                         run::StepSink* beside = nullptr) {
     return fly(mover, {motion, mends, {}}, scene.motion, budget, beside);
   };
-  const bool flown =
-      link(*array.mover, "array " + p.inputs.array.name, "quantisation") &&
-      link(same, "reference, the same sweeps at most and threshold", "unfinished relaxation", &twin);
+  if (!link(*array.mover, "array " + p.inputs.array.name, "rounding", &sweeps)) return false;
+  same.answer_after(sweeps.of);
+  twin.answer_after(sweeps.of);
+  rest.answer_at_rest();
+  const bool flown = link(same, "reference, by as many sweeps in every step", "stopping", &twin);
   budget.sensitivity = at_times(twin, budget, scene.motion.time_step);
-  return flown && link(rest, "reference, relaxed to rest", "formulation") &&
+  return flown && link(rest, "reference, at rest in every step", "formulation") &&
          (!exact || link(*exact, scene.formulation_name() + ", each step solved exactly", "time step"));
 }
 
@@ -109,11 +115,10 @@ void check_budget(const levels::Prepared& p, const std::filesystem::path& folder
   files::check_writable(folder, 0);
 }
 
-std::optional<Budget> work_out_budget(const levels::Prepared& p, std::int64_t rest_sweeps,
-                                      const std::filesystem::path& folder) {
+std::optional<Budget> work_out_budget(const levels::Prepared& p, const std::filesystem::path& folder) {
   Budget budget;
   budget.times = times_of(p.inputs.scene.motion);
-  if (!fly_all(p, rest_sweeps, budget)) return std::nullopt;
+  if (!fly_all(p, budget)) return std::nullopt;
   add_truth(p, folder, budget);
   add_rows(budget);
   return budget;

@@ -27,10 +27,8 @@ struct Budget {
 /// Makes sure before any work that a truth is known, and that the folder can be written to. Throws
 /// input::InputError and files::WriteError.
 void check_budget(const levels::Prepared& prepared, const std::filesystem::path& folder);
-/// Flies the chain; the truth lies in the folder. `rest_sweeps`: at most so many a step where the reference
-/// relaxes to rest. None where the user stopped it.
-std::optional<Budget> work_out_budget(const levels::Prepared& prepared, std::int64_t rest_sweeps,
-                                      const std::filesystem::path& folder);
+/// Flies the chain; the truth lies in the folder. None where the user stopped it.
+std::optional<Budget> work_out_budget(const levels::Prepared& prepared, const std::filesystem::path& folder);
 
 /// In lines for people.
 std::string text_of(const levels::Prepared& prepared, const Budget& budget);

@@ -3,21 +3,8 @@
 #include "sim/levels/interrupt.h"
 #include "sim/levels/level.h"
 #include "sim/run/children.h"
-#include "sim/run/run_totals.h"
-
-#include <algorithm>
 
 namespace hopmesh::study {
-
-namespace {
-
-std::uint64_t slowest(const run::StepRows& rows) {
-  std::uint64_t most = 0;
-  for (const levels::StepRow& row : rows) most = std::max(most, row.cycles + row.bus_cycles);
-  return most;
-}
-
-} // namespace
 
 TrialRow trial_row(const run::RunResult& result, double error) {
   using levels::StepRow;
@@ -29,7 +16,7 @@ TrialRow trial_row(const run::RunResult& result, double error) {
   row.most_sweeps = run::count_of(result.rows, &StepRow::sweeps, Summary::largest);
   row.cycles = run::count_of(result.rows, &StepRow::cycles, Summary::sum);
   row.bus_cycles = run::count_of(result.rows, &StepRow::bus_cycles, Summary::sum);
-  row.most_cycles = slowest(result.rows);
+  row.most_cycles = result.rows.slowest();
   return row;
 }
 

@@ -34,27 +34,26 @@ class CliBudget : public Cli {
   }
 };
 
-// Each part is the distance of two runs that anybody can make. The exact step: thirty expansions to rest,
-// another way to Newton's answer.
+// Each part is the distance of two runs that anybody can make: three sweeps end every relaxation of array and
+// reference alike. The exact step: thirty expansions to rest, another way to Newton's answer.
 TEST_F(CliBudget, PartsAreDistancesOfRuns) {
-  good("budget " + small + " --steps 12 --array byte --out b");
+  const std::string line = small + " --steps 12 --set relax.threshold=0";
+  const std::string few = " --set relax.max_sweeps=3";
+  good("budget " + line + few + " --out b");
   const Table t = read_table(at("b") / "budget.csv");
-  EXPECT_EQ(t.header, (std::vector<std::string>{"time", "total", "truth_floor", "sensitivity", "quantisation",
-                                                "quantisation_share", "unfinished_relaxation",
-                                                "unfinished_relaxation_share", "formulation",
+  EXPECT_EQ(t.header, (std::vector<std::string>{"time", "total", "truth_floor", "sensitivity", "rounding",
+                                                "rounding_share", "stopping", "stopping_share", "formulation",
                                                 "formulation_share", "time_step", "time_step_share"}));
   ASSERT_EQ(t.rows(), 10u);
-  const std::string line = small + " --steps 12 --array byte", rest = " --set relax.threshold=1e-14 "
-                                                                      "--set relax.max_sweeps=20000";
-  const auto run = end_of(line, "1"), reference = end_of(line + " --level reference", "2");
+  const std::string rest = " --set relax.threshold=1e-14 --set relax.max_sweeps=20000";
+  const auto run = end_of(line + few, "1"), reference = end_of(line + few + " --level reference", "2");
   const auto rested = end_of(line + " --level reference" + rest, "3");
   const auto exact = end_of(line + " --level reference --set relax.expansions=30" + rest, "4");
   EXPECT_DOUBLE_EQ(t.numbers("time").back(), 0.12);
-  EXPECT_NEAR(t.numbers("quantisation").back(), rms(run, reference), 1e-12);
-  EXPECT_NEAR(t.numbers("unfinished_relaxation").back(), rms(reference, rested), 1e-12);
+  EXPECT_NEAR(t.numbers("rounding").back(), rms(run, reference), 1e-12);
+  EXPECT_NEAR(t.numbers("stopping").back(), rms(reference, rested), 1e-11);
   EXPECT_NEAR(t.numbers("formulation").back(), rms(rested, exact), 1e-9);
-  expect_shares_of_one(t, {"quantisation", "unfinished_relaxation", "formulation", "time_step"});
-  EXPECT_GT(t.numbers("quantisation_share").back(), 0.5) << "eight bits are the most of it";
+  expect_shares_of_one(t, {"rounding", "stopping", "formulation", "time_step"});
   for (double floor : t.numbers("truth_floor")) EXPECT_LT(floor, 1e-8);
 }
 
@@ -86,13 +85,14 @@ TEST_F(CliBudget, TheProbeHasNoPartOfTheTimeStep) {
   const Table t = read_table(at("b") / "budget.csv");
   ASSERT_EQ(t.rows(), 4u);
   EXPECT_EQ(t.column.count("time_step"), 0u);
-  expect_shares_of_one(t, {"quantisation", "unfinished_relaxation", "formulation"});
+  expect_shares_of_one(t, {"rounding", "stopping", "formulation"});
   EXPECT_THAT(content_of(at("b") / "budget.svg"), HasSubstr("truth floor"));
 }
 
-TEST_F(CliBudget, SaysWhereSweepsEndedAStep) {
-  const Finished f = good("budget " + small + " --steps 4 --rest-sweeps 3 --set relax.max_sweeps=2 --out b");
-  EXPECT_THAT(f.out, HasSubstr("reference, relaxed to rest (4 of 4 steps ended by their sweeps)"));
+TEST_F(CliBudget, SaysWhichStepsAreNotAtRest) {
+  const Finished f = good("budget " + small + " --steps 4 --set relax.max_sweeps=2 --out b");
+  EXPECT_THAT(f.out, HasSubstr("array guarded (4 of 4 steps not at rest)\n"));
+  EXPECT_THAT(f.out, HasSubstr("reference, at rest in every step\n"));
 }
 
 TEST_F(CliBudget, ADivergedMotionIsTold) {

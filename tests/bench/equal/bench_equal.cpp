@@ -3,7 +3,7 @@
 // flies. Processor time of one thread; of the array, the hardware's time at its clock, and that of its
 // emulation.
 #include "sim/levels/processor_time.h"
-#include "tests/bench/equal_steps.h"
+#include "tests/bench/equal/equal_steps.h"
 
 #include <benchmark/benchmark.h>
 #include <list>

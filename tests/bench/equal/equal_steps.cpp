@@ -1,4 +1,4 @@
-#include "tests/bench/equal_steps.h"
+#include "tests/bench/equal/equal_steps.h"
 
 #include "sim/levels/array_mover.h"
 #include "sim/levels/eigen_vectors.h"
