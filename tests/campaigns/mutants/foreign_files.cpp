@@ -152,15 +152,14 @@ Seeds presets() {
 const std::string small_matrix = "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n2 1 -1\n3 2 0.5\n";
 const std::string mesh_scene = "[mesh]\nfile = \"m.obj\"\npinned = [0]\n";
 std::string image_scene(const std::string& file) {
-  return "[mesh]\nfile = \"ring.obj\"\nplanar = true\n[motion]\nrule = \"static\"\nintegrator = "
-         "\"implicit\"\n"
-         "[force]\nimage = {file = \"" +
-         file + "\", pitch = 1.0, strength = 1.0, smoothing = 1.0}\n";
+  std::string text = content_of(tree / "sim/scenes/snake.toml");
+  const std::string shipped = "snake.pgm";
+  return text.replace(text.find(shipped), shipped.size(), file);
 }
 
 fs::path picture_folder(const fs::path& folder, const std::string& file) {
   fs::create_directories(folder);
-  fs::copy_file(tree / "sim/scenes/snake.obj", folder / "ring.obj");
+  fs::copy_file(tree / "sim/scenes/snake.obj", folder / "snake.obj");
   return folder_with(folder, "scene.toml", image_scene(file));
 }
 
@@ -169,15 +168,15 @@ fs::path picture_folder(const fs::path& folder, const std::string& file) {
 std::vector<Reader> readers_of_foreign_files(const fs::path& made) {
   const fs::path seeds = tree / "tests/campaigns/seeds", scenes = shipped_scenes(made / "scenes");
   const Seeds tables =
-      joined(contents_of(tree / "sim/scenes", ".toml"), contents_of(tree / "tests/scene", ".toml"));
-  const Seeds arrays = joined(presets(), contents_of(tree / "tests/scene", ".toml"));
+      joined(contents_of(tree / "sim/scenes", ".toml"), contents_of(tree / "tests/scene/good", ".toml"));
+  const Seeds arrays = joined(presets(), contents_of(tree / "tests/scene/good", ".toml"));
   const Seeds pictures = joined(contents_of(seeds, ".pgm"), contents_of(tree / "sim/scenes", ".pgm"));
   return {
       {"scene", "m.toml", tables, scenes, read_scene},
       {"array", "m.toml", arrays, "", read_array},
       {"study", "m.toml", contents_of(tree / "sim/studies", ".toml"), "", read_study},
       {"overrides", "m.txt", contents_of(seeds, ".set"), "", read_overrides},
-      {"mesh", "m.obj", joined(contents_of(seeds, ".obj"), contents_of(tree / "tests/scene", ".obj")),
+      {"mesh", "m.obj", joined(contents_of(seeds, ".obj"), contents_of(tree / "tests/scene/good", ".obj")),
        folder_with(made / "mesh", "scene.toml", mesh_scene), read_mesh},
       {"png", "m.png", contents_of(seeds, ".png"), picture_folder(made / "png", "m.png"), read_picture,
        repair_png},
