@@ -6,7 +6,8 @@
 
 namespace hopmesh::files {
 
-DamagedFile set_aside(const std::filesystem::path& file, const std::string& why) {
+DamagedFile set_aside(const std::filesystem::path& file, const std::string& found) {
+  const std::string why = input::as_a_line(found); // it may quote the damage
   std::error_code error;
   const std::string aside = file.string() + ".damaged";
   std::filesystem::rename(file, aside, error);

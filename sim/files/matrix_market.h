@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,13 @@ struct SparseMatrix {
 /// entries. A banner may begin with one % alone, and a number be written as in Fortran (1.5D-3). Throws
 /// input::InputError for everything else, with the line, and for values that are not finite.
 SparseMatrix read_matrix(const std::string& path);
+
+/// How many rows a vector must have, and whose number that is: "as W has".
+struct RowsWanted {
+  std::size_t rows;
+  const char* why;
+};
 /// A matrix of one column, as a dense vector.
-std::vector<double> read_vector(const std::string& path);
+std::vector<double> read_vector(const std::string& path, std::optional<RowsWanted> wanted = std::nullopt);
 
 } // namespace hopmesh::files

@@ -211,8 +211,11 @@ SparseMatrix read_matrix(const std::string& path) {
   return MarketReader(path).read();
 }
 
-std::vector<double> read_vector(const std::string& path) {
+std::vector<double> read_vector(const std::string& path, std::optional<RowsWanted> wanted) {
   const SparseMatrix matrix = read_matrix(path);
+  if (wanted && matrix.rows != wanted->rows) // before room is made: a few bytes may ask for 2^31 rows
+    throw input::input_error(path, 0, "", fmt::format("{} rows", matrix.rows),
+                             fmt::format("{}, {}", wanted->rows, wanted->why));
   if (matrix.columns != 1)
     throw input::input_error(path, 0, "", fmt::format("{} x {}", matrix.rows, matrix.columns),
                              "a vector: one column");

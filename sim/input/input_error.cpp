@@ -1,6 +1,8 @@
 // A sentence per mistake, always one printable line, whatever bytes the mistake was made of.
 #include "sim/input/input_error.h"
 
+#include "sim/input/utf8.h"
+
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
@@ -15,14 +17,6 @@ bool is_control(char c) {
 
 bool is_ascii(char c) {
   return static_cast<unsigned char>(c) < 0x80;
-}
-
-/// Control characters would break the line or the terminal; everything else stays as the user wrote it.
-std::string one_line(const std::string& text) {
-  std::string line;
-  for (char c : text)
-    line += is_control(c) ? fmt::format("\\x{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
-  return line;
 }
 
 std::string lower(std::string text) {
@@ -55,6 +49,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 } // namespace
 
+std::string as_a_line(const std::string& text) {
+  const bool legible = is_utf8(text);
+  std::string line;
+  for (char c : text)
+    line += is_control(c) || (!legible && !is_ascii(c))
+                ? fmt::format("\\x{:02X}", static_cast<unsigned char>(c))
+                : std::string(1, c);
+  return line;
+}
+
 InputError input_error(const std::string& file, int line, const std::string& key, const std::string& found,
                        const std::string& expected, const std::string& nearest) {
   std::string text = file;
@@ -63,7 +67,7 @@ InputError input_error(const std::string& file, int line, const std::string& key
   std::string sentence = found.empty() ? "" : "found " + found;
   if (!expected.empty()) sentence += (sentence.empty() ? "expected " : ", expected ") + expected;
   if (!nearest.empty()) sentence += " (did you mean " + nearest + "?)";
-  return InputError(one_line(text + (text.empty() || sentence.empty() ? "" : ": ") + sentence));
+  return InputError(as_a_line(text + (text.empty() || sentence.empty() ? "" : ": ") + sentence));
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& valid) {

@@ -22,6 +22,10 @@ InputError input_error(const std::string& file, int line, const std::string& key
 /// The valid name closest to `name` by edit distance, or "" if none is close enough to be a typing mistake.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& valid);
 
+/// A message with nothing in it that breaks a line or is no UTF-8, whatever file it quotes: control
+/// characters become \xNN, and so does everything beyond ASCII where some of it is no UTF-8.
+std::string as_a_line(const std::string& text);
+
 /// A piece of somebody's file as a message may show it: in quotes, printable, cut where it gets long.
 std::string in_quotes(std::string_view text);
 

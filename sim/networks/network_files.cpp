@@ -87,11 +87,7 @@ void make_symmetric(NetworkData& data, const std::string& file) {
 
 std::vector<double> read_values(const std::string& file, std::size_t rows) {
   if (file.empty()) return {};
-  std::vector<double> values = files::read_vector(file);
-  if (values.size() != rows)
-    throw input::input_error(file, 0, "", fmt::format("{} rows", values.size()),
-                             fmt::format("{}, as W has", rows));
-  return values;
+  return files::read_vector(file, files::RowsWanted{rows, "as W has"});
 }
 
 void check_start(const std::vector<double>& start, const std::string& file) {

@@ -50,13 +50,16 @@ std::vector<std::string> spread_header(const CsvTable& table, const AxisColumns&
 Spread spread_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
-  const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+  const double median =
+      values.size() % 2 == 1 ? values[half] : values[half - 1] / 2 + values[half] / 2; // no overflow
   return {values.front(), median, values.back()};
 }
 
 AxisColumns axis_columns(const CsvTable& table, const std::vector<std::string>& over) {
   const auto method = table.column(heading_of(&Point::method));
-  if (!method) throw input::input_error("results.csv", 1, "", "no column method", "the results of a sweep");
+  if (!method || *method == 0) // a point's number and the axes stand before it
+    throw input::input_error("results.csv", 1, "", method ? "column method first" : "no column method",
+                             "the results of a sweep");
   AxisColumns axes;
   axes.method = *method;
   const std::vector<std::string> names(table.header.begin() + 1,

@@ -75,5 +75,9 @@ TEST_F(KeptFile, OtherColumnsAreTold) {
               HasSubstr("kept.csv:1: found other columns, expected \"name,value,check\""));
 }
 
+TEST_F(KeptFile, IsToldInALineOfUtf8WhateverTheDamage) {
+  EXPECT_THAT(set_aside(file, "values of type '\x01\xFF'").what(), HasSubstr("type '\\x01\\xFF'; set"));
+}
+
 } // namespace
 } // namespace hopmesh::tests

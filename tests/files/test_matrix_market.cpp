@@ -4,11 +4,13 @@
 #include "tests/support/complaint.h"
 #include "tests/support/files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <gmock/gmock.h>
 #include <limits>
 #include <random>
+#include <sys/resource.h>
 
 namespace hopmesh::tests {
 namespace {
@@ -124,6 +126,18 @@ TEST_F(MatrixMarket, ArraysGoColumnByColumn) {
 TEST_F(MatrixMarket, AVectorMayBeSparse) {
   const std::string path = file("%%MatrixMarket matrix coordinate real general\n3 1 1\n2 1 0.5\n");
   EXPECT_EQ(read_vector(path), (std::vector<double>{0, 0.5, 0}));
+}
+
+// Forty bytes that ask for 16 GB: their rows are compared before room is made for them.
+TEST_F(MatrixMarket, AVectorOfAnotherSizeTakesNoRoom) {
+  const std::string path = file("%%MatrixMarket matrix coordinate integer general\n2147483648 1 0\n");
+  rlimit before{};
+  getrlimit(RLIMIT_DATA, &before);
+  const rlimit little{std::min<rlim_t>(before.rlim_max, 1u << 30), before.rlim_max};
+  setrlimit(RLIMIT_DATA, &little);
+  const std::string what = complaint([&] { read_vector(path, RowsWanted{3, "as W has"}); });
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_THAT(what, HasSubstr("found 2147483648 rows, expected 3, as W has"));
 }
 
 TEST_F(MatrixMarket, MistakesOfOneFieldOrHalfAreToldToo) {

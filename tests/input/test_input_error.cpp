@@ -65,5 +65,17 @@ TEST(InputError, ShortensAKeyThatNobodyWouldRead) {
             std::string(200, 'k') + "...: found x, expected y");
 }
 
+// A damaged file is quoted in many a message, by whoever found the damage.
+TEST(InputError, IsOneLineOfUtf8WhateverItQuotes) {
+  const std::string told = input_error("m\xC3\xBC.toml", 2, "key",
+                                       "a\xFF"
+                                       "b\x01",
+                                       "c\n")
+                               .what();
+  EXPECT_EQ(told, "m\\xC3\\xBC.toml:2: key: found a\\xFFb\\x01, expected c\\x0A");
+  EXPECT_STREQ(input_error("m\xC3\xBC.toml", 2, "key", "a", "b").what(),
+               "m\xC3\xBC.toml:2: key: found a, expected b");
+}
+
 } // namespace
 } // namespace hopmesh::tests

@@ -1,6 +1,7 @@
 // Points of a study that differ only along some axes as one mark: middle, least and largest.
 #include "sim/input/input_error.h"
 #include "sim/study/spread.h"
+#include "tests/support/complaint.h"
 #include "tests/support/results.h"
 
 #include <gmock/gmock.h>
@@ -31,9 +32,17 @@ TEST(SpreadOf, IsLeastMiddleAndLargest) {
   EXPECT_EQ(odd.median, 3);
   EXPECT_EQ(odd.largest, 4);
   EXPECT_EQ(even.median, 2.5) << "the mean of the two in the middle";
+  EXPECT_EQ(spread_of({1e308, 1.5e308}).median, 1.25e308) << "their sum is too large for a double";
   EXPECT_EQ(one.least, 7);
   EXPECT_EQ(one.median, 7);
   EXPECT_EQ(one.largest, 7);
+}
+
+TEST(AxisColumns, NeedAPointsNumberBeforeTheMethod) {
+  for (const char* text : {"method,status\nengine,finished\n", "point,status\n0,finished\n"}) {
+    const files::CsvTable broken = files::parse_csv(text, "results.csv");
+    EXPECT_THAT(complaint([&] { axis_columns(broken, {}); }), HasSubstr("results.csv:1: found "));
+  }
 }
 
 TEST(AxisColumns, AreWhatStandsBetweenPointAndMethod) {

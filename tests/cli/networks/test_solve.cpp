@@ -248,9 +248,11 @@ TEST_F(CliSolve, BadFilesAreRefusedInOneLine) {
   write_vector("far.mtx", {0.5, 1.5});
   write_vector("two.mtx", {0.5, 0.5});
   write_text(at("nan.mtx"), "%%MatrixMarket matrix array real general\n2 1\n1\nnan\n");
+  write_text(at("vast.mtx"), "%%MatrixMarket matrix coordinate integer general\n2147483648 1 0\n");
   const std::vector<std::pair<std::string, std::string>> bad{
       {"wide.mtx", "wide.mtx: found 2 x 3, expected as many rows as columns"},
       {"W.mtx three.mtx", "three.mtx: found 3 rows, expected 2, as W has"},
+      {"W.mtx vast.mtx", "vast.mtx: found 2147483648 rows, expected 2, as W has"},
       {"W.mtx two.mtx --start three.mtx", "three.mtx: found 3 rows, expected 2"},
       {"W.mtx W.mtx", "W.mtx: found 2 x 2, expected a vector: one column"},
       {"W.mtx two.mtx --start far.mtx", "far.mtx: found 1.5 in row 2, expected outputs from -1 to 1"},
