@@ -78,7 +78,7 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   return detail::pipeline_fault(a);
 }
 
-/// As validate(), for a mesh or network, which knows its longest row, and how much of the bus its windows take.
+/// As validate(), for a mesh or network: with its longest row, and the room that its windows take.
 inline std::optional<SpecFault> validate_on(const ArraySpec& a, const Topology& t) {
   if (auto fault = validate(a, t.most_taps())) return fault;
   const std::uint64_t span = memory_map(a, t).span;
@@ -108,8 +108,7 @@ inline ArraySpec prescaled_array() {
   ArraySpec a;
   a.name = "prescaled";
   a.normaliser = Normaliser::prescaled;
-  a.formats.weight = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
-  a.formats.bias = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
+  a.formats.weight = a.formats.bias = NumberFormat{16, 1, Rounding::rnd, Overflow::sat};
   return a;
 }
 

@@ -10,8 +10,8 @@
 namespace hopmesh::systemc {
 
 /// How neuron processes wake: at the end of their phase, accounting for its cycles; or at every clock, as in
-/// waves. Phases and clocks give the same bits at the same times; but neurons of a folded array, of which each
-/// has a time of its own inside a phase, all show V at its end when woken by phase.
+/// waves. Phases and clocks give the same bits at the same times; but neurons of a folded array, of which
+/// each has a time of its own inside a phase, all show V at its end when woken by phase.
 enum class Waking { by_phase, by_clock };
 
 /// Cycles of all runs so far, counted on: [first, last) is walked clock by clock.

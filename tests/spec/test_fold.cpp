@@ -75,9 +75,9 @@ TEST(Fold, CyclesByHandWithOneStage) {
 TEST(Fold, TheFlagOf400NodesOnSixteenElements) {
   const ArraySpec preset = spec::folded_array();
   EXPECT_LE(model(preset, flag_400()).sweep, 2400u);
-  // Two colours of 10 x 10 cells, 72 of them inside, 26 at an edge with 18 taps, 2 at a corner: five rounds of
-  // 27 cycles and two of 18, the last of four neurons. Two colours of 10 x 9, 81 inside: six rounds of 27, the
-  // last of ten neurons. The stage takes 4.
+  // Two colours of 10 x 10 cells, 72 of them inside, 26 at an edge with 18 taps, 2 at a corner: five rounds
+  // of 27 cycles and two of 18, the last of four neurons. Two colours of 10 x 9, 81 inside: six rounds of 27,
+  // the last of ten neurons. The stage takes 4.
   const std::uint64_t wide = 1 + 5 * 27 + 2 * 18 + 3 + 4, narrow = 1 + 6 * 27 + 9 + 4;
   EXPECT_EQ(model(preset, flag_400()).sweep, 3 * (2 * wide + 2 * narrow) + 1);
   // The largest phase has 100 neurons: one round each.

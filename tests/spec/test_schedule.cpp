@@ -1,6 +1,6 @@
 // Colours, phases and cycles: proper on any graph, and the numbers by hand on small ones.
-#include "tests/support/random_network.h"
 #include "rtl_model/spec/cycles.h"
+#include "tests/support/random_network.h"
 #include "tests/support/slow_colouring.h"
 
 #include <gtest/gtest.h>

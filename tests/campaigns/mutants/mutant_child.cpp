@@ -39,7 +39,7 @@ void limit_time(unsigned processor_seconds, unsigned seconds) {
   alarm(seconds);
 }
 
-/// Both streams into a file.
+/// Sends standard output and errors into a file.
 void listen_into(const fs::path& file) {
   const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
   dup2(fd, STDOUT_FILENO);

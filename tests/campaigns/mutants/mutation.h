@@ -24,7 +24,7 @@ struct Change {
 /// All of them. None makes the bytes more than a few times longer.
 const std::vector<Change>& changes();
 
-/// One of the seeds after one change, now and then after some more.
+/// A seed after one change, now and then after some more.
 std::string mutant_of(const Seeds& seeds, Random& random);
 
 } // namespace hopmesh::campaigns

@@ -29,7 +29,7 @@ std::vector<Reader> readers_of_kept_files(const std::filesystem::path& made);
 std::vector<Reader> readers_of_stopped_runs(const std::filesystem::path& made);
 /// All of them.
 std::vector<Reader> all_readers(const std::filesystem::path& made);
-/// The same files, read by whole processes of the program: a verb over each.
+/// Files of a reader, read by whole processes of the program: a verb over each.
 std::vector<Reader> all_programs(const std::filesystem::path& made);
 
 /// The reader of that name. Throws std::out_of_range.
