@@ -34,7 +34,9 @@ const std::vector<Mistake> mistakes{
     {"FlagBeforeVerb", "--versoin", {"found --versoin", "mean --version?"}},
     {"FlagBeforeScene", "run --no-chekc two-nodes", {"found --no-chekc", "mean --no-check?"}},
     {"NoScene", "run", {"SCENE: found nothing, expected a scene file"}},
-    {"Scene", "run two-nodse", {"scene: found \"two-nodse\"", "flag-225, flag-400", "mean two-nodes?"}},
+    {"Scene",
+     "run two-nodse",
+     {"scene: found \"two-nodse\"", "flag-225, flag-225-letter, flag-400", "mean two-nodes?"}},
     {"EmptyScene", "run ''", {"scene: found \"\"", "a scene file, or one of"}},
     {"SceneFile", "info nowhere.toml", {"nowhere.toml: found no such file", "a scene file"}},
     {"TwoScenes", "run two-nodes flag-400", {"run: found \"flag-400\" as well, expected no more words"}},
@@ -184,9 +186,10 @@ INSTANTIATE_TEST_SUITE_P(Of, CliMistake, ::testing::ValuesIn(mistakes),
                          [](const auto& made) { return made.param.name; });
 
 TEST_F(Cli, ARuleThatOnlyTheMeshBreaksIsToldBeforeTheRun) {
-  const std::string line = " --set formats.weight=fixed<25,1> --set formats.link=fixed<28,2> "
-                           "--set formats.state=fixed<28,2>";
-  good("info two-nodes" + line); // 24 + 26 + 9 bits and 2 for rows of 3: 61; rows of 27 need 3 more
+  const std::string line = " --set formats.weight=fixed<31,1> --set formats.link=fixed<29,2> "
+                           "--set formats.state=fixed<29,2> --set formats.bias=fixed<24,1>";
+  // 30 + 27 places, and a sign. Rows of 3 sum to 4 at most: 61 bits in all. Rows of 27 sum to 28: 63.
+  good("info two-nodes" + line);
   refused("run flag-400 --out o" + line, "for rows of 27 inputs");
   EXPECT_FALSE(std::filesystem::exists(at("o")));
 }

@@ -63,7 +63,7 @@ void read_places(const fs::path& folder) {
 std::vector<Reader> readers_of_stopped_runs(const fs::path& made) {
   const fs::path engine = killed_run(made / "killed", "");
   const fs::path reference = killed_run(made / "killed-reference", "--level reference");
-  const fs::path rival = killed_run(made / "killed-rival", "--level verlet");
+  const fs::path rival = killed_run(made / "killed-rival", "--level velocity_verlet");
   fs::create_directories(made / "ended");
   const std::string manifest =
       R"({"outcome": "finished", "step_hashes": ["0123456789abcdef"], "seconds": 1e3})";

@@ -227,7 +227,7 @@ TEST_F(CliNeurons, MistakesAreToldInOneLine) {
   EXPECT_THAT(with("fire", "fire 0 0 - 1 0 0 0 0 0 0 0 ? ? ? ? ? ? ? ? ? ? ? ? ?"),
               HasSubstr("found no answer"));
   EXPECT_THAT(refused("vectors --neurons --check none.txt"), HasSubstr("found no such file"));
-  EXPECT_THAT(refused("vectors --check n.txt"), HasSubstr("expected hopmesh-vectors 2"));
+  EXPECT_THAT(refused("vectors --check n.txt"), HasSubstr("expected hopmesh-vectors 3"));
   write_text(at("m") / "drive.memh", "zz\n0g\n");
   EXPECT_THAT(refused("vectors --neurons --check m"), HasSubstr("drive.memh:2: found \"0g\""));
   std::filesystem::remove(at("m") / "weight.memh");
