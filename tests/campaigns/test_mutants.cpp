@@ -120,7 +120,9 @@ void expect_no_fault(const std::vector<Reader>& readers, std::uint64_t mutants) 
     EXPECT_EQ(found.of[r].read + found.of[r].refused, mutants) << readers[r].name;
     EXPECT_TRUE(found.of[r].read > 0 || readers[r].name.find("manifest") != std::string::npos)
         << readers[r].name;
-    EXPECT_GT(found.of[r].refused, 0u) << readers[r].name;
+    // Without a study that can be read, a chart is named after its folder.
+    const bool is_only_a_title = readers[r].name == "study beside results";
+    EXPECT_EQ(found.of[r].refused > 0, !is_only_a_title) << readers[r].name;
   }
 }
 

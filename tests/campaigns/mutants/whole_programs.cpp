@@ -74,7 +74,7 @@ Reader verb_over(const std::vector<Reader>& readers, const std::string& name, co
 // ---- what sweep, size and budget keep, as they keep it
 
 const std::string map =
-    "scene = \"two-nodes\"\nmethods = [\"engine\", \"verlet\"]\nsteps = 10\ntimes = [0.5]\n"
+    "scene = \"two-nodes\"\nmethods = [\"engine\", \"velocity_verlet\"]\nsteps = 10\ntimes = [0.5]\n"
     "[axes]\n\"motion.time_step\" = [0.1, 0.2]\n\"mesh.mass\" = [1.0, 2.0]\n";
 const std::string net = "banner --set mesh.grid.rows=2 --set mesh.grid.columns=3 --steps 3";
 
