@@ -19,7 +19,7 @@ typedef struct hm_driver {
   hm_format weight, bias, state;
   hm_window weights, biases, outputs;
   uint32_t clipped;  /* weights and biases of the last load that did not fit their format */
-  uint32_t vanished; /* and those, not 0, that it rounded to 0 */
+  uint32_t vanished; /* those that were not 0 and became code 0 */
   int shift;         /* they were loaded times 2^shift; 0 where rows are prescaled */
 } hm_driver;
 

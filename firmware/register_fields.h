@@ -1,5 +1,4 @@
-/* The bit fields of the register table: a part of firmware/registers.h, which includes it.
- */
+/* The bit fields of the register table: a part of firmware/registers.h, which includes this file. */
 #ifndef HOPMESH_FIRMWARE_REGISTER_FIELDS_H
 #define HOPMESH_FIRMWARE_REGISTER_FIELDS_H
 

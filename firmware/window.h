@@ -30,7 +30,7 @@ typedef struct hm_stream {
   uint32_t address, waiting;            /* of the burst to come: where it goes, and its words so far */
   uint32_t codes_a_word, held, partial; /* held: codes in the word at hand, which is not full yet */
   uint32_t clipped;                     /* values that did not fit the format */
-  uint32_t vanished;                    /* values, not 0, that it rounded to 0 */
+  uint32_t vanished;                    /* values that were not 0 and became code 0 */
 } hm_stream;
 
 /* Values are multiplied by 2^shift before they become codes. */
@@ -39,7 +39,7 @@ hm_stream hm_stream_open(const hm_line* line, const hm_window* window, const hm_
 int hm_stream_put(hm_stream* stream, const double* values, uint32_t count);
 /* As hm_stream_put, each value divided by `norm` before it is scaled. */
 int hm_stream_put_row(hm_stream* stream, const double* values, uint32_t count, double norm);
-/* Sends what still waits. */
+/* Sends the words that still wait in the buffer. */
 int hm_stream_end(hm_stream* stream);
 
 /* The first `count` codes of a window, times `last_place`. HM_OK, or an error of the bus. */

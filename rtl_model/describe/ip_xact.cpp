@@ -10,10 +10,7 @@ std::string number(std::uint32_t value) {
 }
 
 void add_field(XmlLines& xml, const RegisterRow& row, const FieldRow& field) {
-  xml.open("field");
-  xml.line("name", field.name);
-  xml.line("description", field.meaning);
-  xml.line("bitOffset", std::to_string(field.lowest));
+  begin_field(xml, field);
   if (!row.as_built) {
     xml.open("resets");
     xml.open("reset");
@@ -28,12 +25,7 @@ void add_field(XmlLines& xml, const RegisterRow& row, const FieldRow& field) {
 }
 
 void add_register(XmlLines& xml, const RegisterRow& row) {
-  xml.open("register");
-  xml.line("name", row.name);
-  xml.line("description", row.meaning);
-  xml.line("addressOffset", number(row.offset));
-  xml.line("size", "32");
-  xml.line("access", xml_access(row.access));
+  begin_register(xml, row, number(row.offset));
   for (const FieldRow& field : row.fields) add_field(xml, row, field);
   xml.close("register");
 }

@@ -1,4 +1,4 @@
-// Tables for people.
+// Markdown: the tables of docs/hardware/registers.md, and a page that stands alone.
 #include "rtl_model/describe/register_rows.h"
 
 namespace hopmesh::describe {
@@ -47,8 +47,7 @@ std::string window_table() {
 std::string markdown_text() {
   return "# Registers of a Hopmesh array, version " + version_text() + "\n\n" + register_table() +
          "\n## Fields\n\nA register that is not in this table is one number of 32 bits. Bits of no field "
-         "read as "
-         "0.\n\n" +
+         "read as 0.\n\n" +
          field_table() + "\n## Windows\n\n" + window_table();
 }
 

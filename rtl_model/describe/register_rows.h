@@ -7,7 +7,7 @@
 
 namespace hopmesh::describe {
 
-/// As a host has it.
+/// What a host may do with a register or field (firmware/registers.h tells what the words mean).
 enum class Access { RO, RW, WO, W1C };
 
 struct FieldRow {
@@ -33,16 +33,16 @@ struct WindowRow {
   std::string meaning;
 };
 
-/// In the order of their offsets.
+/// All registers, in the order of their offsets.
 std::vector<RegisterRow> register_rows();
-/// In the order in which they lie.
+/// All windows, in the order in which they lie behind the registers.
 std::vector<WindowRow> window_rows();
 
-/// "2.0"
+/// The version of the registers: "2.0".
 std::string version_text();
-/// "RO", "RW", "WO" or "W1C".
+/// An access as "RO", "RW", "WO" or "W1C".
 const char* name_of(Access access);
-/// 0x and at least so many digits.
+/// A number as 0x and at least so many digits.
 std::string hex(std::uint32_t value, int digits = 1);
 
 // Tables of docs/hardware/registers.md.

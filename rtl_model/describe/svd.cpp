@@ -6,10 +6,7 @@ namespace hopmesh::describe {
 namespace {
 
 void add_field(XmlLines& xml, const FieldRow& field) {
-  xml.open("field");
-  xml.line("name", field.name);
-  xml.line("description", field.meaning);
-  xml.line("bitOffset", std::to_string(field.lowest));
+  begin_field(xml, field);
   xml.line("bitWidth", std::to_string(field.width));
   xml.line("access", xml_access(field.access));
   if (field.access == Access::W1C) xml.line("modifiedWriteValues", "oneToClear");
@@ -17,12 +14,7 @@ void add_field(XmlLines& xml, const FieldRow& field) {
 }
 
 void add_register(XmlLines& xml, const RegisterRow& row) {
-  xml.open("register");
-  xml.line("name", row.name);
-  xml.line("description", row.meaning);
-  xml.line("addressOffset", hex(row.offset, 3));
-  xml.line("size", "32");
-  xml.line("access", xml_access(row.access));
+  begin_register(xml, row, hex(row.offset, 3));
   if (!row.as_built) xml.line("resetValue", hex(row.reset));
   xml.open("fields");
   for (const FieldRow& field : row.fields) add_field(xml, field);

@@ -37,9 +37,27 @@ class XmlLines {
   std::size_t depth_ = 0;
 };
 
-/// As both formats name it; a cleared bit is told beside it.
+/// The word of both formats for an access. That a 1 clears a bit (W1C) stands in an element of its own.
 inline const char* xml_access(Access access) {
   return access == Access::RO ? "read-only" : access == Access::WO ? "write-only" : "read-write";
+}
+
+/// What both formats tell first of a register. `offset`: as the format writes numbers.
+inline void begin_register(XmlLines& xml, const RegisterRow& row, const std::string& offset) {
+  xml.open("register");
+  xml.line("name", row.name);
+  xml.line("description", row.meaning);
+  xml.line("addressOffset", offset);
+  xml.line("size", "32");
+  xml.line("access", xml_access(row.access));
+}
+
+/// What both formats tell first of a field.
+inline void begin_field(XmlLines& xml, const FieldRow& field) {
+  xml.open("field");
+  xml.line("name", field.name);
+  xml.line("description", field.meaning);
+  xml.line("bitOffset", std::to_string(field.lowest));
 }
 
 } // namespace hopmesh::describe

@@ -13,8 +13,8 @@ inline constexpr int most_sum_width = 62;              ///< of the accumulator, 
 inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
 inline constexpr int most_lanes = 64;
 inline constexpr int most_elements = 4096;
-inline constexpr int most_registers =
-    4; ///< of a pipeline; most_pipeline knows how many a normaliser can have
+/// Registers of a pipeline; most_pipeline knows how many a normaliser can have.
+inline constexpr int most_registers = 4;
 inline constexpr std::array<int, 3> bus_widths{32, 64, 128}; ///< of the host bus
 inline constexpr double most_mhz = 10000;
 
@@ -39,7 +39,7 @@ inline Allowed bits(const SignalClass& signal) {
 
 // The rows below are in the order of array files.
 
-/// Who is summed when, and by how much hardware.
+/// Keys of what sums rows: which neurons, when, on how many multipliers.
 inline ArrayKeys element_keys(ArraySpec& a) {
   return {
       ArrayKey("array.schedule", choice(a.schedule, schedule_names),
@@ -62,7 +62,7 @@ inline ArrayKeys element_keys(ArraySpec& a) {
   };
 }
 
-/// From a sum to V.
+/// Keys of what makes V of a sum.
 inline ArrayKeys stage_keys(ArraySpec& a) {
   const bool modified = a.output == Output::modified;
   const char* const with_modified = "array.output = \"modified\"";

@@ -73,7 +73,7 @@ inline std::uint64_t power_of_two_from(std::uint64_t least) {
   return power;
 }
 
-/// Without its offset.
+/// A window as memory_map() begins it: its offset is not set yet.
 inline MemoryWindow window_of(Window w, const ArraySpec& a, const Topology& t) {
   switch (w) {
   case Window::FIRST_LINK:

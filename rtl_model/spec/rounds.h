@@ -72,11 +72,11 @@ struct Fold {
   Phases order;               ///< of each phase
   std::vector<Rounds> rounds; ///< of each phase
   Rounds prepare;             ///< of all phases one behind the other; empty where nothing is prepared
-  std::uint64_t prepare_depth =
-      0; ///< cycles from the last of N until it, or its reciprocal, is in its memory
+  /// Cycles from the last of N until N, or its reciprocal, is in its memory.
+  std::uint64_t prepare_depth = 0;
 };
 
-/// The array must be folded.
+/// Order, rounds and times of a folded array; `a.elements` must be above 0.
 inline Fold fold_of(const ArraySpec& a, const Topology& t, const Phases& phases) {
   Fold fold;
   for (std::size_t k = 0; k < phases.size(); ++k) {

@@ -3,6 +3,7 @@
 #include "sim/cosim/campaign.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/cosim/random_job.h"
 #include "sim/input/line_reader.h"
 #include "sim/input/number.h"

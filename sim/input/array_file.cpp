@@ -2,6 +2,7 @@
 #include "sim/input/array_file.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/input/key_table.h"
 #include "sim/input/utf8.h"
 

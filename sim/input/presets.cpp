@@ -1,6 +1,6 @@
 #include "sim/input/presets.h"
 
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 
 #include <fmt/format.h>
 

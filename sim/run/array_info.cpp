@@ -73,7 +73,8 @@ FigureTable shape(const levels::BuiltMesh& mesh, const spec::ArraySpec& array, c
       {"clock", fmt::format("{} MHz", array.clock_mhz)},
   };
   if (array.schedule == spec::Schedule::coloured)
-    find_row(rows, "schedule").value += fmt::format(" ({} colours)", phases.size() / t.neurons_per_cell);
+    find_row(rows, "schedule").value +=
+        " (" + input::with_noun(phases.size() / t.neurons_per_cell, "colour") + ")";
   return {"Array", rows};
 }
 

@@ -1,6 +1,6 @@
 #include "tests/bench/bench_networks.h"
 
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/levels/built_mesh.h"
 #include "sim/scene/scene_file.h"
 

@@ -1,6 +1,6 @@
 // What an update of a neuron costs the engine: flag-400 beside networks of the problem set, in one process.
 #include "firmware/driver.h"
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/engine/device.h"
 #include "sim/levels/networks/given_network.h"
 #include "sim/networks/problems/problem.h"

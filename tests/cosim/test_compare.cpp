@@ -1,4 +1,5 @@
 // Levels beside each other, one of them with a fault to order.
+#include "rtl_model/spec/presets.h"
 #include "sim/cosim/compare.h"
 #include "sim/levels/reference_mover.h"
 #include "sim/run/run_totals.h"

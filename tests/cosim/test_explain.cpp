@@ -1,5 +1,6 @@
 // Two arrays, one of them with a fault: where they part, to the sweep, cycle, neuron and inputs.
 #include "firmware/registers.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/cosim/explain.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/soft_array.h"

@@ -1,6 +1,7 @@
 // Firings of one neuron: both models that can lay one open against the bit-serial neuron, number by number;
 // the edges that lines are said to show; and that an array's edges are all there.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/cosim/firings/edge_search.h"
 #include "sim/cosim/firings/firing_edges.h"
 #include "sim/cosim/firings/run_firings.h"

@@ -1,7 +1,7 @@
 // The SystemC array against the slow one: 10,000 random networks on as many random arrays, raw code by raw
 // code, with sweeps, the convergence bit, the largest change and the cycles. Forty batches, one elaboration
 // each.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 

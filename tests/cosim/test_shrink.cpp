@@ -1,5 +1,6 @@
 // The smallest job that still differs: rows stay right while cells and links go, and nothing more can go.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/cosim/shrink.h"
 #include "tests/support/random_network.h"
 

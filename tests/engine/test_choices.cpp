@@ -2,6 +2,7 @@
 #include "tests/engine/engine_bench.h"
 
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/engine/choose.h"
 #include "sim/engine/kernels/fast_core.h"
 #include "tests/support/complaint.h"

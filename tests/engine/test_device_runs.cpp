@@ -1,6 +1,6 @@
 // Runs behind the engine's bus: the firmware's driver from doubles to doubles, a wait that is stopped and
 // gone on with, and what a run takes over at START.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/engine/device.h"
 #include "tests/engine/engine_bench.h"
 #include "tests/support/driver_case.h"

@@ -1,7 +1,7 @@
 // Random networks: the engine against the bit-serial array, raw code by raw code, with sweeps, the
 // convergence bit, the largest change and the cycles. Any array on the cores that take it, and arrays made
 // for the kernels on every kernel; each on several threads and with sweeps that follow each other.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/engine/engine_bench.h"
 
 #include <set>

@@ -1,6 +1,7 @@
 // Networks that are no mesh: cells of one neuron, rows of any length. Hubs, full graphs, rows of nothing;
 // every core and way of sweeping against the bit-serial array, raw code by raw code.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/engine/engine_bench.h"
 
 namespace hopmesh::tests {

@@ -2,7 +2,7 @@
 // by counting, on either side of the border; and rows of minima make sums that only 64 bits hold.
 #include "tests/engine/engine_bench.h"
 
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/engine/kernels/fast_core.h"
 
 namespace hopmesh::tests {

@@ -4,6 +4,7 @@
 // every transfer is meant to be seen.
 #include "firmware/registers.h"
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "rtl_model/systemc/device.h"
 
 #include <cmath>

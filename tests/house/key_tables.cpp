@@ -1,7 +1,7 @@
 // The keys of scene and array files as tables of a page.
 #include "tests/house/page_tables.h"
 
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/input/array_file.h"
 #include "sim/scene/scene.h"
 

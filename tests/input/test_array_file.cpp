@@ -1,5 +1,5 @@
 // Array files: presets, every key, names. What may not be built is in tests/scene/bad/array.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/scene/scene_makers.h"
 
 namespace hopmesh::tests {

@@ -1,6 +1,6 @@
 // A row is all it takes: keys that no program knows are read, written, noted and walked by the table that has
 // them.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/scene/scene_makers.h"
 #include "tests/support/own_array_keys.h"

@@ -1,5 +1,6 @@
 // Firmware, driver, bus and a software array beside the double reference.
 #include "rtl_model/spec/cycles.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/levels/array_mover.h"
 #include "sim/levels/bus_array.h"
 #include "sim/levels/reference_mover.h"

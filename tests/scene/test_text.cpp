@@ -1,5 +1,5 @@
 // Descriptions as text: what is written reads back equal, to the last bit of every number.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "sim/input/shipped.h"
 #include "tests/scene/scene_makers.h"
 

@@ -1,5 +1,6 @@
 // Which arrays are refused, and with which sentence.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 
 #include <gtest/gtest.h>
 

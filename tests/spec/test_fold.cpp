@@ -1,6 +1,7 @@
 // Folded arrays: order, rounds and cycles by hand and against an oracle that steps through them.
 #include "rtl_model/spec/array_rules.h"
 #include "rtl_model/spec/cycles.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/support/random_network.h"
 #include "tests/support/slow_array.h"
 #include "tests/support/slow_fold.h"

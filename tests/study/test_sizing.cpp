@@ -1,4 +1,5 @@
 // What may be lowered on an array: every setting on the way can be built, and means what its words say.
+#include "rtl_model/spec/presets.h"
 #include "sim/study/size/sizing.h"
 
 #include "sim/run/array_info.h"

@@ -1,7 +1,7 @@
 // The register table of firmware/registers.h as rows that a test can walk, and a small array to ask.
 #pragma once
 
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"
 

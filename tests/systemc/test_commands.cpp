@@ -1,5 +1,6 @@
 // RESET with its cycles, ABORT at every kind of moment, the interrupt test, DONE and a clearing write in one
 // instant, and codes that share words: docs/hardware/registers.md, to the cycle.
+#include "rtl_model/spec/presets.h"
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>

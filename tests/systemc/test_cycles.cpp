@@ -1,5 +1,6 @@
 // docs/hardware/cycles.md to the cycle: every V absent at n - 1 and present at n, DONE, the interrupt line
 // and the counters likewise, for every schedule, normaliser, number of lanes and way of waking.
+#include "rtl_model/spec/presets.h"
 #include "tests/systemc/cycle_bench.h"
 
 namespace hopmesh::tests {

@@ -1,4 +1,5 @@
 // Folded arrays to the cycle: every V absent at n - 1 and present at n, whatever shares the elements.
+#include "rtl_model/spec/presets.h"
 #include "tests/systemc/cycle_bench.h"
 
 namespace hopmesh::tests {

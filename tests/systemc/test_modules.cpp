@@ -1,5 +1,6 @@
 // Each module on a bench of its own: accumulator, output stage, sequencer, detector, link register.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "rtl_model/systemc/neuron.h"
 #include "tests/support/dut.h"
 #include "tests/support/random_network.h"

@@ -1,5 +1,6 @@
 // Where one run ends and the next begins: START at every instant around DONE, refused commands, the interrupt
 // line, RESET and START in one write, and arrays too small to hide behind.
+#include "rtl_model/spec/presets.h"
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // Woken by phase, by clock, or now this way and now that: the same bits, the same counters, at the same
 // times. Times are not sampled: simulation is led from event to event, and every change of a V is noted with
 // its time.
+#include "rtl_model/spec/presets.h"
 #include "tests/systemc/register_table.h"
 
 #include <gtest/gtest.h>

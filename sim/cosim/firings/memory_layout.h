@@ -11,7 +11,7 @@ std::string layout_text(const NeuronShape& shape, const std::string& name, std::
 /// Declares every memory, and the task `read_neurons` that reads those that are there; in a blank folder,
 /// answers are only declared.
 std::string memories_text(bool blank);
-/// For people.
+/// README.md of the folder: what lies in it, and how a bench reads it.
 std::string folder_page(const NeuronShape& shape, const FiringTask& task, std::size_t firings);
 
 } // namespace hopmesh::cosim

@@ -1,6 +1,6 @@
 // The array that benchmarks compare with must do the same work: its outputs, sweeps and cycles against the
 // production array's and the slow oracle's, on a tiny flag.
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/bench/sc_fixed_array.h"
 #include "tests/support/dut.h"
 #include "tests/support/random_network.h"

@@ -1,6 +1,6 @@
 // The Verilog models against the slow array: raw codes, sweeps, convergence, largest change and cycles of
 // random networks, and every V at every cycle: absent at n - 1, present at n (docs/hardware/cycles.md).
-#include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/bench/array_package.h"
 #include "tests/support/random_network.h"
 

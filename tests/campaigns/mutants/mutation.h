@@ -21,7 +21,7 @@ struct Change {
   const char* name;
   void (*apply)(std::string& bytes, const Seeds& seeds, Random& random);
 };
-/// All of them. None makes the bytes more than a few times longer.
+/// All ways of changing bytes. None makes the bytes more than a few times longer.
 const std::vector<Change>& changes();
 
 /// A seed after one change, now and then after some more.

@@ -27,7 +27,7 @@ std::vector<Reader> readers_of_foreign_files(const std::filesystem::path& made);
 std::vector<Reader> readers_of_kept_files(const std::filesystem::path& made);
 /// What a run that was killed goes on with; the program is run and killed for it.
 std::vector<Reader> readers_of_stopped_runs(const std::filesystem::path& made);
-/// All of them.
+/// All readers of the campaign.
 std::vector<Reader> all_readers(const std::filesystem::path& made);
 /// Files of a reader, read by whole processes of the program: a verb over each.
 std::vector<Reader> all_programs(const std::filesystem::path& made);

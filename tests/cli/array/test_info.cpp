@@ -28,7 +28,7 @@ TEST_F(CliInfo, TwoNodesByHand) {
   EXPECT_EQ(row(out, "neurons"), "3 (3 a cell)");
   EXPECT_EQ(row(out, "links between cells"), "0");
   EXPECT_EQ(row(out, "inputs of a neuron"), "at most 3");
-  EXPECT_EQ(row(out, "schedule"), "coloured, 3 phases a sweep (1 colours)");
+  EXPECT_EQ(row(out, "schedule"), "coloured, 3 phases a sweep (1 colour)");
   EXPECT_EQ(row(out, "longest phase"), "7 = 3 accumulate + 2 normalise + 2 output");
   EXPECT_EQ(row(out, "sweep"), "22");               // 3 * 7 + 1
   EXPECT_EQ(row(out, "prepare, once a run"), "22"); // 3 + 18 + 1
@@ -90,7 +90,7 @@ TEST_F(CliInfo, TellsTheRoundsOfAFold) {
   // The rounds of all phases, none shorter than the one before has neurons: 3 (2 (5 * 27 + 2 * 18) + 2 * 6 *
   // 27) cycles, the four neurons of the last one, and 19 for a reciprocal.
   EXPECT_EQ(row(folded, "prepare, once a run"), "2,021");
-  EXPECT_EQ(row(folded, "accumulators"), "0.2 KiB");      // 16 * 2 * 43 bits
+  EXPECT_EQ(row(folded, "accumulators"), "0.2 KiB");      // 16 * 2 * 39 bits
   EXPECT_EQ(row(folded, "states and links"), "39.0 KiB"); // 1140 (24 + 16 * 16) bits
   const std::string each = good("info flag-400 --set array.elements=4 --set array.pipeline=2 "
                                 "--set array.schedule=synchronous --set array.lanes=3")
@@ -101,7 +101,7 @@ TEST_F(CliInfo, TellsTheRoundsOfAFold) {
             "33 = 27 accumulate + 2 normalise + 2 output + 2 pipeline");
 }
 
-/// Allowed, and told in a line.
+/// More elements than a phase has neurons are allowed, and told in a line.
 TEST_F(CliInfo, TellsElementsThatNeverWork) {
   EXPECT_EQ(good("info flag-400 --set array.elements=100").err, "");
   EXPECT_EQ(
