@@ -119,6 +119,8 @@ StepRow ArrayMover::advance() {
   return row;
 }
 
+static_assert(LeftOver::steps_a_look == 8); // step_columns.h tells people: every eighth step
+
 // Signs have no way down but their own rule.
 void ArrayMover::look_back(StepRow& row) {
   const hm_network& network = memory_.state.network;

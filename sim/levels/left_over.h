@@ -26,7 +26,7 @@ class LeftOver {
   /// The look takes some 600 bytes a neuron of the host's memory: larger meshes do without it.
   static constexpr std::size_t most_neurons = 100'000;
 
-  /// A look costs about a fifth of a step of the engine, so a run looks at one step in so many, from the
+  /// A look costs about an eighth of a step of the engine, so a run looks at one step in so many, from the
   /// first on. The step's number alone decides, so that a resumed run looks at the same ones.
   static constexpr std::uint64_t steps_a_look = 8;
 
