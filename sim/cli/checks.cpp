@@ -12,7 +12,7 @@ namespace hopmesh::cli {
 
 namespace {
 
-template <class Number, class Good> CLI::Validator check(Good good, std::string expected) {
+template <class Number, class Good> CLI::Validator check(Good good, const std::string& expected) {
   const auto judge = [good, expected](const std::string& text) {
     Number number = 0;
     if (input::parse_number(text, number) && good(number)) return std::string();

@@ -11,7 +11,7 @@ namespace hopmesh::input {
 
 namespace {
 
-constexpr std::size_t most_bytes = 1 << 20;
+constexpr std::size_t most_toml_bytes = 1 << 20;
 constexpr int most_dots = 1000; // toml++ nests and frees tables by recursion, one level a dot
 constexpr int deepest_key = 8;  // nothing we know is deeper than three
 const std::string override_file = "--set";
@@ -130,7 +130,7 @@ std::string describe(const TomlValue& value) {
 }
 
 TomlSource TomlSource::read(const std::string& path, const std::string& kind) {
-  return of_text(read_whole_file(path, kind, most_bytes), path);
+  return of_text(read_whole_file(path, kind, most_toml_bytes), path);
 }
 
 TomlSource TomlSource::of_text(const std::string& text, const std::string& path) {

@@ -14,7 +14,7 @@ namespace {
 
 using input::in_quotes;
 
-constexpr std::size_t most_taps = 1'000'000;
+constexpr std::size_t most_taps_told = 1'000'000;
 
 /// Headings of all cells of a line.
 Words headings(const NeuronShape& shape) {
@@ -137,7 +137,7 @@ NeuronShape read_shape(VectorLines& lines) {
   if (lines.expect("case", "case NAME").empty()) lines.fail(in_quotes(lines.text()), "case NAME");
   spec::ArraySpec array;
   lines.read_array(array, spec::array_keys);
-  const auto taps = static_cast<std::size_t>(lines.expect_number("taps", 1, most_taps));
+  const auto taps = static_cast<std::size_t>(lines.expect_number("taps", 1, most_taps_told));
   lines.check_rules(array, taps, spec::array_keys);
   return {array, taps};
 }
