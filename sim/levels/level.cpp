@@ -5,11 +5,11 @@
 #include "sim/engine/generic/open_neuron.h"
 #include "sim/input/input_error.h"
 #include "sim/input/standard_streams.h"
-#include "sim/levels/engine_port.h"
 #include "sim/levels/interrupt.h"
+#include "sim/levels/ports/engine_port.h"
+#include "sim/levels/ports/systemc_port.h"
 #include "sim/levels/reference_mover.h"
 #include "sim/levels/rival_mover.h"
-#include "sim/levels/systemc_port.h"
 
 #include <algorithm>
 #include <fmt/format.h>

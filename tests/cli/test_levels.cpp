@@ -3,6 +3,8 @@
 #include "tests/cli/levels_by_name.h"
 #include "tests/support/cli_test.h"
 
+#include <regex>
+
 namespace hopmesh::tests {
 namespace {
 
@@ -81,6 +83,16 @@ TEST_P(CliLevel, AnswersVectorsAndCampaignsWhereItHasABus) {
   }
   good("vectors --random 3 --out v.txt" + named);
   EXPECT_EQ(hopmesh("vectors --check v.txt").exit_code, 0); // the default level agrees
+}
+
+TEST_P(CliLevel, IsNamedByTheHelpOfWhoeverTakesIt) {
+  const auto offered = [&](const char* verb) {
+    const std::string help = good(std::string(verb) + " --help").out;
+    return std::regex_search(help, std::regex("[ ,(]" + GetParam() + "[ ,:)\n]"));
+  };
+  EXPECT_TRUE(offered("run"));
+  for (const char* verb : {"compare", "solve"}) EXPECT_EQ(offered(verb), !is_rival) << verb;
+  for (const char* verb : {"fuzz", "vectors"}) EXPECT_EQ(offered(verb), level.has_bus()) << verb;
 }
 
 TEST_P(CliLevel, IsAMethodOfStudies) {

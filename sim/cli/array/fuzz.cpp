@@ -121,7 +121,8 @@ void add_fuzz(CLI::App& program, int& exit_code) {
       ->check(whole_number(0, INT64_MAX))
       ->capture_default_str();
   verb->add_option("--levels", o->levels,
-                   "engine (all its kernels and ways of sweeping), systemc, systemc-clock")
+                   fmt::format("{}, each in all its ways of computing",
+                               fmt::join(levels::level_names({levels::Kind::array}), ", ")))
       ->delimiter(',');
   verb->add_option("-j", o->children, "processes at once; changes no case")->check(whole_number(1, 256));
   verb->add_option("--out", o->out, "folder for a case that differs, made as small as it gets")

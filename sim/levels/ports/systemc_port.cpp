@@ -1,4 +1,4 @@
-#include "sim/levels/systemc_port.h"
+#include "sim/levels/ports/systemc_port.h"
 
 // SystemC's library wants an sc_main. Programs that only use the levels have none of their own.
 __attribute__((weak)) int sc_main(int, char**) {

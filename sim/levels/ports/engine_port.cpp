@@ -1,4 +1,4 @@
-#include "sim/levels/engine_port.h"
+#include "sim/levels/ports/engine_port.h"
 
 #include "firmware/registers.h"
 
