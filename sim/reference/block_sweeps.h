@@ -8,7 +8,7 @@ namespace hopmesh::reference {
 
 class BlockSweeps {
  public:
-  /// Both must outlive it.
+  /// Network and order must outlive it.
   BlockSweeps(const BlockNetwork& network, const Order& order);
   BlockSweeps(const BlockSweeps&) = delete;
   BlockSweeps& operator=(const BlockSweeps&) = delete;
