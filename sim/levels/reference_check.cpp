@@ -95,10 +95,10 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   answer.V = by_node(std::vector<double>(built.output, built.output + neurons));
   answer.sweeps = last.sweeps;
   const bool signs = motion_.neuron == reference::Neuron::binary;
-  const reference::BlockNetwork& blocks = laid_out(network);
+  const reference::BlockSweeps& sweeps = laid_out(network);
   const reference::Judgement judgement =
       signs ? reference::judge_signs(network, order_, answer, motion_.max_sweeps)
-            : reference::judge_answer(blocks, order_, answer);
+            : reference::judge_answer(sweeps, answer);
   const auto rms = [&](const Vector& a, const Vector& b) {
     return std::sqrt((a - b).squaredNorm() / static_cast<double>(neurons));
   };
@@ -108,23 +108,24 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.rounding = rms(answer.V, judgement.same_sweeps);
   error.stopping = rms(judgement.same_sweeps, judgement.rest);
   error.energy_gap = judgement.gap;
-  error.fall_left = fall_left(blocks, answer.start, answer.V, judgement.rest);
+  error.fall_left = fall_left(sweeps.network(), answer.start, answer.V, judgement.rest);
   error.network = network_difference(network, built);
   if (last.converged) return error;
-  const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
-    return blocks.swept(order_, from, sweeps);
-  };
+  const auto swept = [&](const Vector& from, std::uint32_t count) { return sweeps.swept(from, count); };
   error.alternation =
       signs ? alternation(network, order_, answer.V, motion_.neuron) : alternation_of(swept, answer.V);
   return error;
 }
 
-const reference::BlockNetwork& ReferenceCheck::laid_out(const reference::Network& network) {
-  if (blocks_)
+const reference::BlockSweeps& ReferenceCheck::laid_out(const reference::Network& network) {
+  if (blocks_) {
     blocks_->take(network);
-  else
+    sweeps_->refill();
+  } else {
     blocks_.emplace(network, static_cast<Eigen::Index>(mesh_.components()));
-  return *blocks_;
+    sweeps_.emplace(*blocks_, order_);
+  }
+  return *sweeps_;
 }
 
 namespace {

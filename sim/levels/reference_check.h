@@ -41,7 +41,7 @@ class ReferenceCheck {
   reference::Vector by_node(const std::vector<double>& by_cell) const;
   /// That expansion by the reference, from its own prediction; `start` becomes its point.
   reference::Network expanded(const std::vector<double>& start, double scale, reference::Vector& V0) const;
-  const reference::BlockNetwork& laid_out(const reference::Network& network);
+  const reference::BlockSweeps& laid_out(const reference::Network& network);
   void find_places(const reference::Matrix& W);
   double network_difference(const reference::Network& network, const hm_network& built);
 
@@ -50,6 +50,7 @@ class ReferenceCheck {
   const reference::Order order_;
   reference::State state_;
   std::optional<reference::BlockNetwork> blocks_; ///< the last step's network
+  std::optional<reference::BlockSweeps> sweeps_;  ///< of it
   std::vector<std::ptrdiff_t>
       place_; ///< [weights of the array]: in the reference's matrix; -1 where it has none
 };

@@ -30,11 +30,15 @@ struct BlockRows {
 };
 
 /// Four nodes that fire together and share no weight; a figure for each of them in the lanes of a quad. Where
-/// nodes run out the one behind the last stands in, whose output stays 0.
+/// nodes run out the one behind the last stands in, whose output stays 0; so it does for the sources of a
+/// node that has fewer than the others.
 struct FiringGroup {
   std::uint32_t node[4];
-  Quad own[3][3]; ///< the weight of an output q in a neuron p
-  Quad share[3];  ///< 1 / N, with N of paper eq. 9; 0 where N is
+  std::uint32_t sources;       ///< of each of them
+  const std::uint32_t* source; ///< [sources][4]
+  const Quad* weight; ///< [sources][n (n + 1) / 2] of n components: xx, yy, zz, xy, yz, zx; xx, yy, xy; xx
+  Quad own[3][3];     ///< the weight of an output q in a neuron p
+  Quad share[3];      ///< 1 / N, with N of paper eq. 9; 0 where N is
   Quad bias[3];
 };
 
@@ -58,9 +62,8 @@ struct BlockKernel {
   const char* name;
   /// s = W V + bias, all [nodes].
   void (*inputs)(const BlockRows& rows, const Quad* bias, const Quad* V, Quad* s);
-  /// Fires the groups, none of whose nodes share weights, component by component. V: [nodes + 1][2],
-  /// a node's outputs (x, y, z) and again as (y, z, x).
-  void (*sweep)(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V);
+  /// Fires the groups, none of whose nodes share weights, component by component. V: [nodes + 1].
+  void (*sweep)(std::size_t components, const FiringGroup* group, std::size_t count, Quad* V);
 
   /// direction = step * free + kept * direction.
   void (*turn)(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction);

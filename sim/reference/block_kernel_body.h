@@ -21,19 +21,40 @@ inline void inputs(const BlockRows& rows, const Quad* bias, const Quad* V, Quad*
   }
 }
 
-/// s of a node's neurons but for bias and what they do to each other. V: [nodes + 1][2], v and v'.
-inline Four sum_sources(const BlockRows& rows, std::size_t node, const Quad* V) {
-  const std::size_t from = rows.first[node], to = rows.first[node + 1];
-  const std::uint32_t *source = rows.source + from, *const end = rows.source + to;
-  const Four* weight = fours(rows.weight) + 2 * from;
-  Four straight{}, crossed{}, back{};
-  for (; source != end; ++source, weight += 2) {
-    const Four* const v = fours(V) + 2 * std::size_t{*source};
-    straight += weight[0] * v[0];
-    crossed += weight[1] * v[1];
-    back += weight[1] * v[0];
+/// Outputs of four nodes, a component in each of v and a node in each lane.
+template <std::size_t n> inline void take_outputs(const Quad* V, const std::uint32_t* node, Four* v) {
+  const double *const a = V[node[0]].lane, *const b = V[node[1]].lane;
+  const double *const c = V[node[2]].lane, *const d = V[node[3]].lane;
+  if constexpr (n == 1) {
+    v[0] = Four{*a, *b, *c, *d};
+  } else {
+    const Four ac = joined(a, c), bd = joined(b, d);
+    v[0] = __builtin_shufflevector(ac, bd, 0, 4, 2, 6);
+    v[1] = __builtin_shufflevector(ac, bd, 1, 5, 3, 7);
+    if constexpr (n == 3)
+      v[2] = __builtin_shufflevector(joined(a + 2, c + 2), joined(b + 2, d + 2), 0, 4, 2, 6);
   }
-  return (straight + crossed) + turned_back(back);
+}
+
+/// s of a group's neurons but for what the nodes do to themselves.
+template <std::size_t n> inline void sum_sources(const FiringGroup& group, const Quad* V, Four* s) {
+  Four sum[n], v[n];
+  for (std::size_t p = 0; p < n; ++p) sum[p] = fours(group.bias)[p];
+  const Four* w = fours(group.weight);
+  for (std::uint32_t k = 0; k < group.sources; ++k, w += n * (n + 1) / 2) {
+    take_outputs<n>(V, group.source + 4 * std::size_t{k}, v);
+    if constexpr (n == 1) {
+      sum[0] += w[0] * v[0];
+    } else if constexpr (n == 2) {
+      sum[0] += w[0] * v[0] + w[2] * v[1];
+      sum[1] += w[2] * v[0] + w[1] * v[1];
+    } else {
+      sum[0] += (w[0] * v[0] + w[3] * v[1]) + w[5] * v[2];
+      sum[1] += (w[3] * v[0] + w[1] * v[1]) + w[4] * v[2];
+      sum[2] += (w[5] * v[0] + w[4] * v[1]) + w[2] * v[2];
+    }
+  }
+  for (std::size_t p = 0; p < n; ++p) s[p] = sum[p];
 }
 
 // Paper eqs. 10 to 12, with R u = u - V |u|: no neuron waits for a comparison.
@@ -46,43 +67,34 @@ inline Four fired(const Four& s, const Four& share, const Four& V) {
 /// each other, the other groups fill.
 inline constexpr std::size_t batch = 8;
 
-template <std::size_t n>
-void fire_batch(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
-  Four sums[batch][4], v[batch][4]; // component by component, a lane for each node of a group
+template <std::size_t n> void fire_batch(const FiringGroup* group, std::size_t count, Quad* V) {
+  Four sums[batch][n], v[batch][4]; // component by component, a lane for each node of a group
   for (std::size_t g = 0; g < count; ++g) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      sums[g][k] = sum_sources(rows, group[g].node[k], V);
-      v[g][k] = fours(V)[2 * group[g].node[k]];
-    }
-    transpose(sums[g][0], sums[g][1], sums[g][2], sums[g][3]);
-    transpose(v[g][0], v[g][1], v[g][2], v[g][3]);
+    sum_sources<n>(group[g], V, sums[g]);
+    take_outputs<n>(V, group[g].node, v[g]);
+    for (std::size_t p = n; p < 4; ++p) v[g][p] = Four{};
   }
   for (std::size_t p = 0; p < n; ++p)
     for (std::size_t g = 0; g < count; ++g) {
-      Four s = fours(group[g].bias)[p] + sums[g][p];
+      Four s = sums[g][p];
       for (std::size_t q = 0; q < n; ++q) s += fours(group[g].own[p])[q] * v[g][q];
       v[g][p] = fired(s, fours(group[g].share)[p], v[g][p]);
     }
   for (std::size_t g = 0; g < count; ++g) {
     transpose(v[g][0], v[g][1], v[g][2], v[g][3]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      Four* const place = fours(V) + 2 * group[g].node[k];
-      place[0] = v[g][k];
-      place[1] = turned(v[g][k]);
-    }
+    for (std::size_t k = 0; k < 4; ++k) fours(V)[group[g].node[k]] = v[g][k];
   }
 }
 
-template <std::size_t n>
-void sweep_over(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
-  for (; count > batch; group += batch, count -= batch) fire_batch<n>(rows, group, batch, V);
-  fire_batch<n>(rows, group, count, V);
+template <std::size_t n> void sweep_over(const FiringGroup* group, std::size_t count, Quad* V) {
+  for (; count > batch; group += batch, count -= batch) fire_batch<n>(group, batch, V);
+  fire_batch<n>(group, count, V);
 }
 
-inline void sweep(const BlockRows& rows, const FiringGroup* group, std::size_t count, Quad* V) {
-  if (rows.components == 3) return sweep_over<3>(rows, group, count, V);
-  if (rows.components == 2) return sweep_over<2>(rows, group, count, V);
-  sweep_over<1>(rows, group, count, V);
+inline void sweep(std::size_t components, const FiringGroup* group, std::size_t count, Quad* V) {
+  if (components == 3) return sweep_over<3>(group, count, V);
+  if (components == 2) return sweep_over<2>(group, count, V);
+  sweep_over<1>(group, count, V);
 }
 
 inline void turn(std::size_t nodes, const Quad* step, const Quad* free, double kept, Quad* direction) {

@@ -16,6 +16,14 @@ inline Four* fours(Quad* quads) {
   return reinterpret_cast<Four*>(quads);
 }
 
+using Two = double __attribute__((vector_size(16), may_alias));
+
+/// Two figures at each place.
+inline Four joined(const double* low, const double* high) {
+  return __builtin_shufflevector(*reinterpret_cast<const Two*>(low), *reinterpret_cast<const Two*>(high), 0,
+                                 1, 2, 3);
+}
+
 inline double total(const Four& sums) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }

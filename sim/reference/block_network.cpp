@@ -70,6 +70,7 @@ Vector BlockNetwork::gathered(const Quads& quads) const {
 // The sources of every node, then where among the figures each weight of the matrix belongs.
 void BlockNetwork::lay_out(const Network& network) {
   const auto *start = network.W.outerIndexPtr(), *column = network.W.innerIndexPtr();
+  ++layout_;
   start_.assign(start, start + network.I.size() + 1);
   column_.assign(column, column + start_.back());
   place_.assign(column_.size(), 0);
@@ -120,102 +121,6 @@ BlockRows BlockNetwork::rows() const {
 
 void BlockNetwork::inputs(const Quads& bias, const Quads& V, Quads& s) const {
   kernel_.inputs(rows(), bias.data(), V.data(), s.data());
-}
-
-// Phases from this one on that fire all neurons of some nodes, component by component, where the nodes share
-// no weight: then each phase need not read all it needs before it writes.
-bool BlockNetwork::share_nothing(const Order& order, std::size_t phase,
-                                 std::vector<std::uint32_t>& nodes) const {
-  const auto n = static_cast<std::uint32_t>(components_);
-  if (phase + n > order.size()) return false;
-  for (std::uint32_t p = 0; p < n; ++p)
-    if (order[phase + p].size() != order[phase].size()) return false;
-  std::vector<bool> fires(bias_.size(), false);
-  for (std::size_t k = 0; k < order[phase].size(); ++k) {
-    const std::uint32_t node = order[phase][k] / n;
-    for (std::uint32_t p = 0; p < n; ++p)
-      if (order[phase + p][k] != node * n + p) return false;
-    nodes.push_back(node);
-    fires[node] = true;
-  }
-  for (const std::uint32_t node : nodes)
-    for (std::uint32_t k = first_[node]; k < first_[node + 1]; ++k)
-      if (fires[source_[k]]) return false;
-  return true;
-}
-
-std::vector<BlockNetwork::Stretch> BlockNetwork::stretches(const Order& order) const {
-  std::vector<Stretch> all;
-  for (std::size_t phase = 0; phase < order.size();) {
-    std::vector<std::uint32_t> nodes;
-    if (!share_nothing(order, phase, nodes)) {
-      all.push_back({{}, &order[phase++]});
-      continue;
-    }
-    all.push_back({groups_of(nodes), nullptr});
-    phase += components_;
-  }
-  return all;
-}
-
-std::vector<FiringGroup> BlockNetwork::groups_of(const std::vector<std::uint32_t>& fired) const {
-  std::vector<FiringGroup> groups((fired.size() + 3) / 4, FiringGroup{});
-  const Quad* const own = rows().own;
-  for (FiringGroup& group : groups)
-    std::fill(std::begin(group.node), std::end(group.node), static_cast<std::uint32_t>(nodes()));
-  for (std::size_t k = 0; k < fired.size(); ++k) {
-    FiringGroup& group = groups[k / 4];
-    const std::size_t node = fired[k], lane = k % 4;
-    group.node[lane] = fired[k];
-    for (std::size_t p = 0; p < components_; ++p) {
-      group.share[p].lane[lane] = share_[node].lane[p];
-      group.bias[p].lane[lane] = bias_[node].lane[p];
-      for (std::size_t q = 0; q < components_; ++q)
-        group.own[p][q].lane[lane] = p == q ? own[2 * node].lane[p]
-                                            : own[2 * node + 1].lane[(p + q) % 3 == 0 ? 1
-                                                                     : p + q == 1     ? 0
-                                                                                      : 2];
-    }
-  }
-  return groups;
-}
-
-void BlockNetwork::fire_together(const std::vector<std::uint32_t>& phase, Quads& V, Quads& s) const {
-  inputs(bias_, V, s);
-  for (const std::uint32_t neuron : phase) {
-    const std::size_t node = neuron / components_, p = neuron % components_;
-    double& v = V[node].lane[p];
-    const double u = s[node].lane[p] * share_[node].lane[p];
-    v += u - v * std::abs(u);
-  }
-}
-
-// Sums here are not in the order of N's, and may leave the box by a last place.
-Vector BlockNetwork::swept(const Order& order, const Vector& V, std::uint32_t sweeps) const {
-  const std::vector<Stretch> all = stretches(order);
-  Quads plain = spread(V), s(plain.size(), Quad{});
-  std::vector<QuadPair> now(plain.size() + 1, QuadPair{}); // with the one behind the last node
-  const auto put = [&] {
-    for (std::size_t k = 0; k < plain.size(); ++k) {
-      const double* v = plain[k].lane;
-      now[k] = {{plain[k], {v[1], v[2], v[0], 0}}};
-    }
-  };
-  const auto take_out = [&] {
-    for (std::size_t k = 0; k < plain.size(); ++k) plain[k] = now[k].half[0];
-  };
-  put();
-  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep)
-    for (const Stretch& stretch : all)
-      if (stretch.together) {
-        take_out();
-        fire_together(*stretch.together, plain, s);
-        put();
-      } else {
-        kernel_.sweep(rows(), stretch.groups.data(), stretch.groups.size(), now.data()->half);
-      }
-  take_out();
-  return gathered(plain).cwiseMin(1).cwiseMax(-1);
 }
 
 } // namespace hopmesh::reference

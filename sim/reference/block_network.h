@@ -35,28 +35,21 @@ class BlockNetwork {
 
   /// s = W V + bias.
   void inputs(const Quads& bias, const Quads& V, Quads& s) const;
-  /// What relax(network, order, V, 0, sweeps) comes to if nothing rests before.
-  Vector swept(const Order& order, const Vector& V, std::uint32_t sweeps) const;
+
+  /// Node by node. Another layout has another number.
+  BlockRows rows() const;
+  std::uint64_t layout() const { return layout_; }
+  /// 1 / N of every neuron; 0 where N is.
+  const Quads& share() const { return share_; }
 
  private:
   using Places = std::vector<Matrix::StorageIndex>;
 
-  /// Some of an order's phases: those of nodes that share no weight, or a phase whose neurons all read before
-  /// any is written.
-  struct Stretch {
-    std::vector<FiringGroup> groups;
-    const std::vector<std::uint32_t>* together = nullptr;
-  };
   void lay_out(const Network& network);
   void find_sources(std::size_t node, std::vector<std::uint32_t>& block_of);
   void find_places(std::size_t node, std::vector<std::uint32_t>& block_of);
   void expect_symmetric(const double* weights) const;
   bool has_places_of(const Network& network) const;
-  BlockRows rows() const;
-  bool share_nothing(const Order& order, std::size_t phase, std::vector<std::uint32_t>& nodes) const;
-  std::vector<Stretch> stretches(const Order& order) const;
-  std::vector<FiringGroup> groups_of(const std::vector<std::uint32_t>& nodes) const;
-  void fire_together(const std::vector<std::uint32_t>& phase, Quads& V, Quads& s) const;
 
   std::size_t components_;
   const BlockKernel& kernel_;
@@ -65,6 +58,7 @@ class BlockNetwork {
   std::vector<std::uint32_t> first_, source_;
   std::vector<QuadPair> block_; ///< those between nodes, then those of the nodes themselves
   std::size_t own_ = 0;         ///< quads before the latter
+  std::uint64_t layout_ = 0;
   Quads bias_, magnitude_, share_;
 };
 

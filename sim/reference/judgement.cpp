@@ -18,9 +18,10 @@ double largest_terms(const BlockNetwork& network) {
 
 } // namespace
 
-Judgement judge_answer(const BlockNetwork& network, const Order& order, const Answer& answer) {
+Judgement judge_answer(const BlockSweeps& sweeps, const Answer& answer) {
+  const BlockNetwork& network = sweeps.network();
   Judgement judgement;
-  judgement.same_sweeps = network.swept(order, answer.start, answer.sweeps);
+  judgement.same_sweeps = sweeps.swept(answer.start, answer.sweeps);
   judgement.rest = rest_from(network, judgement.same_sweeps).V;
   double left = energy_above(network, judgement.rest, answer.V);
   if (left < 0) {

@@ -1,7 +1,7 @@
 // What an answer to a network is held against: the same sweeps in double, and the rest.
 #pragma once
 
-#include "sim/reference/block_network.h"
+#include "sim/reference/block_sweeps.h"
 
 namespace hopmesh::reference {
 
@@ -20,7 +20,7 @@ struct Judgement {
 /// Real outputs. Where -W is positive definite there is one rest, and the gap is never below 0 but for
 /// rounding. Elsewhere the rest is the one that lies down from the same sweeps, or, if the answer lies below
 /// that, the one down from the answer: so the gap is not negative there either.
-Judgement judge_answer(const BlockNetwork& network, const Order& order, const Answer& answer);
+Judgement judge_answer(const BlockSweeps& sweeps, const Answer& answer);
 
 /// Outputs are signs: there is no rest between the bounds, so the rule itself goes on, `most_sweeps` at most.
 Judgement judge_signs(const Network& network, const Order& order, const Answer& answer,
