@@ -65,7 +65,8 @@ class MachineDrawing : public pictures::SvgCanvas {
     block({40, 84, 226, 150}, control_colour, "Host", {"makes networks,", "moves the mesh"});
     arrow({{120, 158}, {120, 228}});
     arrow({{140, 228}, {140, 158}});
-    text(154, 197, fmt::format("bus, {} bits{}", a_.bus_bits, a_.packing ? ", packed" : ""));
+    text(154, 197, fmt::format("bus, {} bits{}", a_.bus_bits, a_.packing ? ", packed" : ""),
+         R"( font-size="12")");
     block({40, 234, 226, 386}, register_colour, "Registers, windows",
           {fmt::format("{} KiB of addresses", grouped(map.span / 1024)),
            window("weights", spec::Window::WEIGHT), window("biases", spec::Window::BIAS),
@@ -84,11 +85,11 @@ class MachineDrawing : public pictures::SvgCanvas {
   void draw_control() {
     const spec::Phases phases = spec::phases_of(t_, a_.schedule);
     const spec::CycleModel m = spec::cycle_model(a_, t_, phases);
-    block({270, 84, 640, 160}, control_colour, "Sequencer",
+    block({270, 84, 640, 164}, control_colour, "Sequencer",
           {fmt::format("{}: {} a sweep,", name_of(a_.schedule), with_noun(phases.size(), "phase")),
            rounds_text(phases),
            fmt::format("a sweep takes {} cycles, prepare {}", grouped(m.sweep), grouped(m.prepare))});
-    arrow({{440, 160}, {440, 182}});
+    arrow({{440, 164}, {440, 182}});
     block({860, 84, 1140, 150}, register_colour, "Convergence detector",
           {"the largest |ΔV| of a sweep:", "at rest, or on to the next sweep?"});
     arrow({{860, 117}, {646, 117}});
@@ -106,7 +107,7 @@ class MachineDrawing : public pictures::SvgCanvas {
           card_colour);
     text(300, 210,
          folded() ? with_noun(parts_.accumulators, "element")
-                  : with_noun(parts_.accumulators, "neuron") + ", each of its own",
+                  : with_noun(parts_.accumulators, "neuron") + ", nothing shared",
          R"( font-size="15" font-weight="600")");
   }
 
@@ -174,9 +175,10 @@ class MachineDrawing : public pictures::SvgCanvas {
 
   void draw_way_back() {
     arrow({{930, 506}, {930, 576}, {395, 576}, {395, 470}});
-    const std::string writes = parts_.stages == 1 ? "one write a cycle" : "a write for each stage";
-    text(662, 570, fmt::format("L: V in {} bits, to every memory of links; {}", f_.link.width, writes),
-         R"( text-anchor="middle")");
+    const char* writes = !folded()            ? "to the neuron and its neighbours"
+                         : parts_.stages == 1 ? "to every memory of links; one write a cycle"
+                                              : "to every memory of links; a write for each stage";
+    text(662, 570, fmt::format("L: V in {} bits, {}", f_.link.width, writes), R"( text-anchor="middle")");
   }
 
   void draw_totals() {

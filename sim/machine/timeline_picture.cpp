@@ -138,9 +138,9 @@ class TimelineDrawing : public pictures::SvgCanvas {
     x = name(x, 488, bus_colour, "bus");
     x = name(x, 488, prepare_colour, "array prepares");
     x = name(x, 488, sweep_colour, "array sweeps");
-    x = name(x, 488, busy_colour, "share of multipliers that multiply");
+    x = name(x, 488, busy_colour, "multipliers that multiply");
     x = name(x, 488, idle_colour, "waits");
-    name(x, 488, unknown, "host: not known, in no figure");
+    name(x, 488, unknown, "host: not known");
   }
 
   const TimelineView& view_;

@@ -11,6 +11,7 @@
 namespace hopmesh::tests {
 namespace {
 
+using machine::machine_picture;
 using ::testing::HasSubstr;
 using ::testing::Not;
 

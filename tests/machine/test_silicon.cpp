@@ -9,7 +9,7 @@
 namespace hopmesh::tests {
 namespace {
 
-using machine::memory_bits, machine::multiplier_bits, machine::divider_bits;
+using machine::divider_bits, machine::memory_bits, machine::multiplier_bits, machine::parts_of;
 
 // Each cell is linked to the three others: 12 neurons of 12 taps, and so 144 weights. Sums lie within 12 +
 // 256, so that s has 10 bits before its point, and 15 + 14 behind it; N has 9 and 15.

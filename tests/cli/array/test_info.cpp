@@ -149,7 +149,7 @@ TEST_F(CliInfo, DrawsTheMachine) {
     EXPECT_THAT(svg, ::testing::HasSubstr(figure));
   good("info flag-400 --picture cells.svg");
   const std::string cells = content_of(at("cells.svg"));
-  EXPECT_THAT(cells, ::testing::HasSubstr("1,140 neurons, each of its own"));
+  EXPECT_THAT(cells, ::testing::HasSubstr("1,140 neurons, nothing shared"));
   EXPECT_THAT(cells, ::testing::Not(::testing::HasSubstr("Hold register")));
   EXPECT_THAT(refused("info flag-400 --picture /proc/none/a.svg"), ::testing::HasSubstr("/proc/none"));
 }

@@ -48,11 +48,11 @@ class CliElements : public Cli {
 };
 
 TEST_F(CliElements, OfTheFlagComeToWhatTheFormulasSay) {
-  expect_formulas("flag-elements", "flag-400", 2 * 2 * 13);
+  expect_formulas("flag-elements", "flag-400", 2 * 2 * 14);
 }
 
 TEST_F(CliElements, OfTheBannerComeToWhatTheFormulasSay) {
-  expect_formulas("banner-elements", "banner", 2 * 2 * 13);
+  expect_formulas("banner-elements", "banner", 2 * 2 * 14);
 }
 
 } // namespace
