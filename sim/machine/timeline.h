@@ -25,7 +25,7 @@ struct Timeline {
   HardwareTime time() const { return {prepare + sweeps, bus}; }
   /// Cycles of multipliers that multiply over all that there are, in the array's own cycles.
   double utilisation() const { return share(time().array_cycles); }
-  /// The same over the cycles of array and bus.
+  /// Those cycles over all of array and bus.
   double utilisation_with_bus() const { return share(time().cycles()); }
 
  private:
