@@ -58,7 +58,7 @@ hm_step_parameters step_parameters(const scene::Scene& scene) {
 ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                        ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), motion_(step_parameters(scene)),
-      memory_(mesh, motion_.formulation->looks_back), buffer_(4096) {
+      memory_(mesh, motion_.formulation->looks_back), buffer_(longest_burst) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
   const bool signs = array.output == spec::Output::binary;

@@ -13,6 +13,9 @@
 
 namespace hopmesh::levels {
 
+/// Words that a host sends or takes at once.
+inline constexpr std::size_t longest_burst = 4096;
+
 /// Least and largest raw code that a signal took, and the format it has.
 struct SignalRange {
   std::string signal;

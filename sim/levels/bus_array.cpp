@@ -1,17 +1,12 @@
 #include "sim/levels/bus_array.h"
 
 #include "firmware/registers.h"
+#include "sim/levels/array_port.h"
 #include "sim/levels/bus_error.h"
 
 #include <algorithm>
 
 namespace hopmesh::levels {
-
-namespace {
-
-constexpr std::size_t burst_words = 4096;
-
-} // namespace
 
 std::uint32_t BusArray::read(std::uint32_t address) const {
   std::uint32_t word = 0;
@@ -47,10 +42,10 @@ BusArray::Window BusArray::output_window() const {
 Codes BusArray::read_window(const Window& window, std::size_t count) const {
   const auto n = static_cast<std::size_t>(window.codes_a_word);
   std::vector<std::uint32_t> words((count + n - 1) / n);
-  for (std::size_t done = 0; done < words.size(); done += burst_words)
+  for (std::size_t done = 0; done < words.size(); done += longest_burst)
     check(bus_.read_burst(bus_.context, window.base + static_cast<std::uint32_t>(4 * done),
                           words.data() + done,
-                          static_cast<std::uint32_t>(std::min(burst_words, words.size() - done))));
+                          static_cast<std::uint32_t>(std::min(longest_burst, words.size() - done))));
   Codes codes(count);
   for (std::size_t k = 0; k < count; ++k) codes[k] = code_in(words.data(), window.codes_a_word, k);
   return codes;
@@ -58,10 +53,10 @@ Codes BusArray::read_window(const Window& window, std::size_t count) const {
 
 void BusArray::write_window(const Window& window, const Codes& codes) const {
   const std::vector<std::uint32_t> words = packed(codes, window.codes_a_word);
-  for (std::size_t done = 0; done < words.size(); done += burst_words)
+  for (std::size_t done = 0; done < words.size(); done += longest_burst)
     check(bus_.write_burst(bus_.context, window.base + static_cast<std::uint32_t>(4 * done),
                            words.data() + done,
-                           static_cast<std::uint32_t>(std::min(burst_words, words.size() - done))));
+                           static_cast<std::uint32_t>(std::min(longest_burst, words.size() - done))));
 }
 
 void BusArray::load(const Codes& weights, const Codes& biases, const Codes& outputs) const {

@@ -52,7 +52,7 @@ inline constexpr StepColumn all_step_columns[] = {
                Curve{"sweeps a step"}, Total{Summary::sum, "sweeps", "sweeps", "{}"}),
     StepColumn("cycles", "cycles", "of the array, from START taken to DONE; 0 at level reference",
                &StepRow::cycles, Subject::clock, Curve{"array cycles a step"},
-               Total{Summary::sum, "simulated_cycles"}),
+               Total{Summary::sum, "array_cycles"}),
     StepColumn(
         "energy", "J",
         "Σ α (length − rest length)², or Σ α √(length² + floor²) where `mesh.springs.law = \"tension\"`",

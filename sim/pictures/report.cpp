@@ -93,6 +93,9 @@ nlohmann::json words_of(const RunView& view) {
   run["pinned"] = nlohmann::json::array();
   for (std::size_t n = 0; n < view.pinned.size(); ++n)
     if (view.pinned[n]) run["pinned"].push_back(n);
+  run["drawings"] = nlohmann::json::array();
+  for (const Drawing& drawing : view.drawings)
+    run["drawings"].push_back({{"title", drawing.title}, {"svg", drawing.svg}});
   run["tables"] = nlohmann::json::array();
   for (const auto& [title, figures] : view.tables) {
     auto rows = nlohmann::json::array();

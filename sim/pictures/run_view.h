@@ -31,6 +31,11 @@ struct Figure {
   std::string name, value;
 };
 
+/// A picture of its own, under a heading.
+struct Drawing {
+  std::string title, svg;
+};
+
 struct RunView {
   std::string title;    ///< scene name
   std::string subtitle; ///< one line: level, steps, array
@@ -50,7 +55,8 @@ struct RunView {
   std::vector<double> step_times; ///< s, abscissa of the series
   std::vector<Series> series;
   std::vector<std::pair<std::string, std::vector<Figure>>>
-      tables;           ///< e.g. {"The array", {...}}, {"Speed", {...}}
+      tables;                    ///< e.g. {"The array", {...}}, {"Speed", {...}}
+  std::vector<Drawing> drawings; ///< above the tables
   std::string manifest; ///< manifest.json as text
 };
 

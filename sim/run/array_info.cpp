@@ -4,6 +4,7 @@
 #include "rtl_model/spec/cycles.h"
 #include "rtl_model/spec/memory_map.h"
 #include "sim/input/count_text.h"
+#include "sim/machine/silicon.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,16 +21,6 @@ std::string normaliser_text(const spec::ArraySpec& array) {
   return spec::has_reciprocal(array) ? fmt::format("{}, {} bits", name, array.reciprocal_bits) : name;
 }
 
-/// Input accumulators that are built.
-std::uint64_t accumulators(const spec::ArraySpec& array, const spec::Topology& t) {
-  return spec::is_folded(array) ? static_cast<std::uint64_t>(array.elements) : t.neurons();
-}
-
-/// Of the memory of links in an element: what is read, and what is written where all fire at once.
-std::uint64_t link_banks(const spec::ArraySpec& array) {
-  return array.schedule == spec::Schedule::synchronous ? 2 : 1;
-}
-
 std::string elements_text(const spec::ArraySpec& array) {
   if (!spec::is_folded(array)) return "one a neuron";
   return grouped(static_cast<std::uint64_t>(array.elements)) + ", shared by the neurons of a phase";
@@ -38,7 +29,7 @@ std::string elements_text(const spec::ArraySpec& array) {
 /// Of the sums; output stages have theirs.
 std::string multipliers_text(const spec::ArraySpec& array, const spec::Topology& t) {
   return fmt::format("{} {}, {} in all", array.lanes, spec::is_folded(array) ? "an element" : "a neuron",
-                     grouped(accumulators(array, t) * static_cast<std::uint64_t>(array.lanes)));
+                     grouped(machine::parts_of(array, t).multipliers));
 }
 
 std::string stage_text(const spec::ArraySpec& array) {
@@ -140,18 +131,6 @@ FigureTable bus(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
            {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
 }
 
-FigureTable memory(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
-  const auto kib = [](std::uint64_t bits) {
-    return fmt::format("{:.1f} KiB", static_cast<double>(bits) / 8192);
-  };
-  const MemoryBits bits = memory_bits(mesh, array);
-  return {"Memory",
-          {{"weights", kib(bits.weights)},
-           {"biases", kib(bits.biases)},
-           {"states and links", kib(bits.states_and_links)},
-           {"accumulators", kib(bits.accumulators)}}};
-}
-
 std::string formulation(const scene::Scene& scene) {
   if (scene.motion.formulation == scene::Formulation::probe) return "probe: outputs are directions";
   return "incremental, " + name_of(scene.incremental.rule) +
@@ -223,39 +202,19 @@ FigureTable left_out(const scene::Scene& scene, const levels::BuiltMesh& mesh) {
 
 } // namespace
 
-// A folded array reads links by a memory in each element, and by another bank where all fire at once; sums
-// wait in front of a shared stage in registers of their own.
-MemoryBits memory_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
-  const spec::Topology& t = mesh.topology();
-  const spec::Formats& f = array.formats;
-  const auto width = [](const spec::NumberFormat& format) {
-    return static_cast<std::uint64_t>(format.width);
-  };
-  const std::uint64_t neurons = t.neurons(), sum = width(spec::accumulator_format(array, t.most_taps()));
-  std::uint64_t links = width(f.link);
-  if (spec::is_folded(array)) links *= accumulators(array, t) * link_banks(array);
-  return {t.weight_words() * width(f.weight), neurons * width(f.bias), neurons * (width(f.state) + links),
-          accumulators(array, t) * sum * (spec::shares_stage(array) ? 2 : 1)};
-}
-
-std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
-  const spec::Topology& t = mesh.topology();
-  const spec::Formats& f = array.formats;
-  const auto product = [](int a, int b) {
-    return static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b);
-  };
-  const std::uint64_t sums = accumulators(array, t) * product(array.lanes * f.weight.width, f.link.width);
-  std::uint64_t stage = product(f.state.width, f.drive.width);
-  if (array.normaliser == spec::Normaliser::reciprocal)
-    stage += product(spec::accumulator_format(array, t.most_taps()).width, array.reciprocal_bits);
-  return sums + stage * (spec::shares_stage(array) ? 1 : accumulators(array, t));
-}
-
 std::vector<FigureTable> array_info(const scene::Scene& scene, const levels::BuiltMesh& mesh,
-                                    const spec::ArraySpec& array) {
-  const spec::Phases phases = spec::phases_of(mesh.topology(), array.schedule);
-  return {motion(scene),    shape(mesh, array, phases), formats(mesh, array), cycles(mesh, array, phases),
-          bus(mesh, array), memory(mesh, array),        left_out(scene, mesh)};
+                                    const spec::ArraySpec& array, const StepLoad& step) {
+  const spec::Topology& t = mesh.topology();
+  const spec::Phases phases = spec::phases_of(t, array.schedule);
+  return {motion(scene),
+          shape(mesh, array, phases),
+          formats(mesh, array),
+          cycles(mesh, array, phases),
+          step_time_table(array, t, step),
+          bus(mesh, array),
+          memory_table(array, t),
+          multiplier_table(array, t),
+          left_out(scene, mesh)};
 }
 
 std::string text_of(const std::vector<FigureTable>& tables) {

@@ -6,8 +6,8 @@
 #include "sim/pictures/overlay.h"
 #include "sim/pictures/report.h"
 #include "sim/run/array_info.h"
-#include "sim/run/hardware_time.h"
 #include "sim/run/run_picture.h"
+#include "sim/run/run_timeline.h"
 #include "version.h"
 
 #include <algorithm>
@@ -60,10 +60,18 @@ const char* status_of(const RunResult& result) {
   return result.rows.unrest().unrested > 0 ? "doubtful" : "good";
 }
 
-double hardware_seconds(const StepLog& rows, double clock_mhz) {
-  return HardwareTime{count_of(rows, &levels::StepRow::cycles, levels::Summary::sum),
-                      count_of(rows, &levels::StepRow::bus_cycles, levels::Summary::sum)}
-      .seconds(clock_mhz);
+/// Where the run's time went. Of the host's it is said that nobody knows it.
+void add_timeline(Json& json, const machine::Timeline& t, double clock_mhz) {
+  const machine::HardwareTime time = t.time();
+  json["hardware_seconds"] = time.seconds(clock_mhz);
+  json["utilisation"] = t.utilisation();
+  json["utilisation_with_bus"] = t.utilisation_with_bus();
+  json["timeline"] = {{"bus", t.bus},
+                      {"array_prepare", t.prepare},
+                      {"array_sweeps", t.sweeps},
+                      {"array_waits_for_bus", time.bus_cycles},
+                      {"bus_waits_for_array", time.array_cycles},
+                      {"host_with_both_idle", nullptr}};
 }
 
 void add_totals(Json& json, levels::Subject subject, const StepLog& rows) {
@@ -127,8 +135,11 @@ void RunFiles::finish(const RunResult& result, const levels::Mover& motion) {
   else
     discard("overlay.svg");
   view.tables = run_tables(facts_, mesh_, result, motion.ranges());
+  if (facts_.level->has_codes() && !result.rows.empty())
+    view.drawings.push_back(timeline_drawing(facts_, mesh_, result.rows));
   if (facts_.level->has_codes())
-    for (auto& table : array_info(facts_.inputs.scene, mesh_, facts_.inputs.array))
+    for (auto& table :
+         array_info(facts_.inputs.scene, mesh_, facts_.inputs.array, typical_load(facts_, result.rows)))
       view.tables.push_back(table);
   pictures::write_report(report_view(std::move(view)), folder_ / "report.html");
   files::write_file(folder_ / "stats.json", statistics(result, motion)); // now it knows the peak memory
@@ -176,7 +187,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   json["peak_memory_mb"] = peak_memory_mb();
   if (facts_.level->has_codes()) {
     add_totals(json, Subject::clock, rows);
-    json["hardware_seconds"] = hardware_seconds(rows, facts_.inputs.array.clock_mhz);
+    add_timeline(json, timeline_of_run(facts_, mesh_, rows), facts_.inputs.array.clock_mhz);
     json["simulated_cycles_per_second"] =
         a_second(count_of(rows, &levels::StepRow::cycles, levels::Summary::sum));
     add_totals(json, Subject::network, rows);

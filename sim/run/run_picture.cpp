@@ -4,7 +4,7 @@
 #include "sim/input/count_text.h"
 #include "sim/pictures/coarse_view.h"
 #include "sim/run/array_info.h"
-#include "sim/run/hardware_time.h"
+#include "sim/run/run_timeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,16 +67,13 @@ void add_totals(levels::Subject subject, const StepLog& rows, std::vector<pictur
     if (t.total->name) lines.push_back({t.total->name, t.text()});
 }
 
-std::string hardware_text(const HardwareTime& time, double mhz) {
+std::string hardware_text(const machine::HardwareTime& time, double mhz) {
   return fmt::format("{:.3g} s at {} MHz, {:.0f} % of it on the bus (the host's own part is not known)",
                      time.seconds(mhz), mhz, 100 * time.bus_share());
 }
 
 FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::BuiltMesh& mesh,
                       double seconds) {
-  const auto sum = [&](std::uint64_t levels::StepRow::*figure) {
-    return count_of(rows, figure, levels::Summary::sum);
-  };
   const auto rate = [&](std::uint64_t count) {
     return seconds > 0 ? static_cast<double>(count) / seconds : 0.0;
   };
@@ -93,11 +90,13 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
     lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }
   if (is_shown(Subject::clock, facts, rows)) {
-    const HardwareTime time{sum(&levels::StepRow::cycles), sum(&levels::StepRow::bus_cycles)};
+    const machine::Timeline timeline = timeline_of_run(facts, mesh, rows);
+    const machine::HardwareTime time = timeline.time();
     lines.push_back({"simulated cycles", input::grouped(time.array_cycles) + " in the array, " +
                                              input::grouped(time.bus_cycles) + " on the bus"});
     lines.push_back({"simulated cycles/s", fmt::format("{:.3g}", rate(time.array_cycles))});
     lines.push_back({"time on hardware", hardware_text(time, facts.inputs.array.clock_mhz)});
+    lines.push_back({"utilisation", utilisation_text(timeline)});
     add_totals(Subject::clock, rows, lines);
   }
   add_totals(Subject::motion, rows, lines);

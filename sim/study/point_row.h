@@ -26,12 +26,13 @@ using Maybe = std::optional<double>;
 struct PointRow {
   run::Outcome outcome = run::Outcome::crashed;
   Stability stability = Stability::stable;
-  std::uint64_t steps = 0, sweeps = 0, cycles = 0, bus_cycles = 0, memory_bits = 0, multiplies = 0;
+  std::uint64_t steps = 0, sweeps = 0, cycles = 0, bus_cycles = 0, multiplies = 0;
+  std::uint64_t memory_bits = 0, multiplier_bits = 0, divider_bits = 0;
   double array_seconds = 0, host_seconds = 0, largest_strain = 0, omega = 0;
   Maybe output_error, output_error_median, rounding_error, rounding_error_median, stopping_error;
   Maybe stopping_error_median, position_error;
   std::vector<Maybe> reference_at, truth_at, floor_at, sensitivity_at; ///< [times of the study]
-  Maybe hardware_seconds;
+  Maybe hardware_seconds, utilisation, utilisation_with_bus;
   std::string sentence;
 };
 
@@ -102,7 +103,19 @@ inline constexpr ResultColumn all_result_columns[] = {
      "of all sweeps of an array (0 for other methods): one for each input, one for R·u, one by the "
      "reciprocal where there is one",
      &PointRow::multiplies, Role::work},
-    {"memory_bits", "", "weights, biases, states, links, accumulators", &PointRow::memory_bits},
+    {"utilisation", "",
+     "cycles of multipliers that multiply weights, over all that the accumulators' multipliers have while "
+     "the "
+     "array works; empty for methods that are no array",
+     &PointRow::utilisation},
+    {"utilisation_with_bus", "", "the same over the cycles of array and bus",
+     &PointRow::utilisation_with_bus},
+    {"memory_bits", "",
+     "weights, biases, states, links with all copies and banks, norms, reciprocals, accumulators",
+     &PointRow::memory_bits},
+    {"multiplier_bits", "", "of all multipliers, width times width: w·L, R·u, and s by the reciprocal",
+     &PointRow::multiplier_bits},
+    {"divider_bits", "", "of the subtractors of dividers", &PointRow::divider_bits},
     {"largest_strain", "", "over the motion", &PointRow::largest_strain},
     {"omega", "1/s", "of the stiffest wave of the mesh at the start", &PointRow::omega},
     {"sentence", "", "how it ended", &PointRow::sentence},

@@ -1,8 +1,8 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/run/array_info.h"
-#include "sim/run/hardware_time.h"
+#include "sim/machine/silicon.h"
+#include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
 #include "sim/scene/frequency.h"
 
@@ -30,6 +30,17 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
   return count;
 }
 
+void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRow& row) {
+  const machine::Timeline timeline = machine::timeline_of(array, t, {row.cycles, row.bus_cycles, row.sweeps});
+  row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
+  row.utilisation = timeline.utilisation();
+  row.utilisation_with_bus = timeline.utilisation_with_bus();
+  row.multiplies = row.sweeps * multiplies_a_sweep(array, t);
+  row.memory_bits = machine::memory_bits(array, t).total();
+  row.multiplier_bits = machine::multiplier_bits(array, t).total();
+  row.divider_bits = machine::divider_bits(array, t);
+}
+
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
             PointRow& row) {
   using levels::ReferenceError;
@@ -52,10 +63,7 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
     row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
-  if (row.cycles > 0)
-    row.hardware_seconds = run::HardwareTime{row.cycles, row.bus_cycles}.seconds(inputs.array.clock_mhz);
-  if (row.cycles > 0) row.multiplies = row.sweeps * multiplies_a_sweep(inputs.array, mesh.topology());
-  if (row.cycles > 0) row.memory_bits = run::memory_bits(mesh, inputs.array).total();
+  if (row.cycles > 0) add_hardware(inputs.array, mesh.topology(), row);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

@@ -1,7 +1,8 @@
-// How fast the array runs on the 400-node flag: woken by phase, by clock, by clock with a wave, and written
-// with sc_fixed. All in one process and in random turns, so that ratios are fair on a noisy machine; all must
-// give the same codes in the same cycles.
+// How fast the array runs on the 400-node flag: woken by phase, by clock, by clock with a wave, folded, and
+// written with sc_fixed. All in one process and in random turns, so that ratios are fair on a noisy machine;
+// all must give the same codes, and all but the folded one in the same cycles.
 #include "rtl_model/spec/array_rules.h"
+#include "rtl_model/spec/presets.h"
 #include "tests/bench/flag_network.h"
 #include "tests/bench/sc_fixed_array.h"
 
@@ -21,11 +22,12 @@ struct Arrays {
   Arrays()
       : inputs(scene::read_inputs(HOPMESH_SOURCE_DIR "/sim/scenes/flag-400.toml", "", {})),
         mesh(inputs.scene), production("production", inputs.array, mesh.topology()),
+        folded("folded", spec::folded_array(), mesh.topology()),
         sc_fixed("sc_fixed", inputs.array, mesh.topology()), steps(inputs.scene, mesh, production) {}
 
   scene::Inputs inputs;
   levels::BuiltMesh mesh;
-  tests::Dut production;
+  tests::Dut production, folded;
   ScFixedArray sc_fixed;
   FlagSteps steps;
   FlagNetwork network;
@@ -37,16 +39,27 @@ struct Arrays {
   void load_sc_fixed() { sc_fixed.load(network.weights, network.biases, network.start); }
 };
 
-void run_production(benchmark::State& state, Arrays& a, systemc::Waking waking) {
-  a.network.load(a.production);
-  a.production.device.wake(waking);
+Outcome outcome_after_runs(benchmark::State& state, Arrays& a, tests::Dut& dut, systemc::Waking waking) {
+  a.network.load(dut);
+  dut.device.wake(waking);
   for (auto _ : state) {
     state.PauseTiming();
-    a.production.put_codes(tests::Window::OUTPUT, a.network.start);
+    dut.put_codes(tests::Window::OUTPUT, a.network.start);
     state.ResumeTiming();
-    FlagNetwork::run(a.production);
+    FlagNetwork::run(dut);
   }
-  report(state, a.network, a.network.outcome_of_production(a.production));
+  return a.network.outcome_of_production(dut);
+}
+
+void run_production(benchmark::State& state, Arrays& a, systemc::Waking waking) {
+  report(state, a.network, outcome_after_runs(state, a, a.production, waking));
+}
+
+/// Sixteen elements and a single stage: the same codes, and the cycles of the fold.
+void run_folded(benchmark::State& state, Arrays& a, systemc::Waking waking) {
+  FlagNetwork network = a.network;
+  network.expected.cycles = a.folded.device.cells.cycles().run(sweeps_a_run);
+  report(state, network, outcome_after_runs(state, a, a.folded, waking));
 }
 
 void by_phase(benchmark::State& state, Arrays& a) {
@@ -55,6 +68,14 @@ void by_phase(benchmark::State& state, Arrays& a) {
 
 void by_clock(benchmark::State& state, Arrays& a) {
   run_production(state, a, systemc::Waking::by_clock);
+}
+
+void by_phase_folded(benchmark::State& state, Arrays& a) {
+  run_folded(state, a, systemc::Waking::by_phase);
+}
+
+void by_clock_folded(benchmark::State& state, Arrays& a) {
+  run_folded(state, a, systemc::Waking::by_clock);
 }
 
 /// The wave holds every register of every neuron, as `hopmesh run --wave` writes it.
@@ -107,6 +128,8 @@ void register_all(Arrays& a) {
   };
   add("flag-400/by phase", by_phase, 60, 9);
   add("flag-400/by clock", by_clock, 2, 9);
+  add("flag-400/by phase, folded", by_phase_folded, 60, 9);
+  add("flag-400/by clock, folded", by_clock_folded, 1, 9);
   add("flag-400/by clock, wave on", by_clock_with_wave, 1, 9);
   add("flag-400/sc_fixed, a signal per value", sc_fixed, 1, 9);
   add("flag-400 steps/parts", parts_of_steps, 1, 1);

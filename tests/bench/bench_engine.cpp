@@ -117,7 +117,7 @@ void register_all() {
     add(std::string("kernel/") + kernel, [=](benchmark::State& s) {
       relax(s, flag(20, ""), {1, kernel, 1});
     });
-  for (const char* array : {"descent", "prescaled", "byte"})
+  for (const char* array : {"descent", "prescaled", "byte", "folded"})
     add(std::string("array/") + array, [=](benchmark::State& s) {
       relax(s, flag(20, array), {1, "auto", 1});
     });

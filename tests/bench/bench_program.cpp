@@ -56,7 +56,7 @@ std::filesystem::path results_folder() {
 
 double simulated_cycles() {
   std::ifstream file(results_folder() / "stats.json");
-  return nlohmann::json::parse(file).at("simulated_cycles").get<double>();
+  return nlohmann::json::parse(file).at("array_cycles").get<double>();
 }
 
 void run_program(benchmark::State& state, const Words& options) {

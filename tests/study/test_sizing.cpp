@@ -2,7 +2,6 @@
 #include "rtl_model/spec/presets.h"
 #include "sim/study/size/sizing.h"
 
-#include "sim/run/array_info.h"
 #include "tests/support/small_scenes.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +11,6 @@ namespace {
 
 using namespace study;
 using levels::BuiltMesh;
-using run::multiplier_bits;
 
 class SizingTest : public ::testing::Test {
  protected:
@@ -92,20 +90,19 @@ TEST_F(SizingTest, AThresholdDoublesAndOverridesSaySo) {
   EXPECT_EQ(std::count(words.begin(), words.end(), "relax.max_sweeps=17"), 1);
 }
 
-// Two nodes, one of them pinned: 3 neurons of 3 taps. By hand, default array with one lane: 16 * 16 in the
-// lane, 24 * 18 for R u, and s times 18 bits, s having 15 + 14 bits behind its point and 10 before it.
-TEST_F(SizingTest, MultiplierBitsByHand) {
+// Two nodes, one of them pinned: 3 neurons of 3 taps, and so 9 weights. By hand, of the default array: s has
+// 15 + 14 bits behind its point and 10 before it, N 15 and 9, a reciprocal 18 and 5 for the length of N.
+TEST_F(SizingTest, SiliconIsMemoryAndMultipliers) {
   inputs.scene = grid_scene(1, 2);
   const BuiltMesh two(inputs.scene);
-  EXPECT_EQ(multiplier_bits(two, spec::default_array()), 3u * (16 * 16 + 24 * 18 + 39 * 18));
-  spec::ArraySpec array = spec::descent_array();
-  array.lanes = 3;
-  EXPECT_EQ(multiplier_bits(two, array), 3u * (3 * 16 * 16 + 16 * 16));
-  array = spec::default_array(); // folded: as many as there are elements, whatever the neurons
-  array.elements = 2;
-  EXPECT_EQ(multiplier_bits(two, array), 2u * (16 * 16 + 24 * 18 + 39 * 18));
-  array.stages = spec::Stages::one;
-  EXPECT_EQ(multiplier_bits(two, array), 2u * 16 * 16 + 24 * 18 + 39 * 18);
+  const Sizing sizing(inputs, two);
+  Setting at = sizing.widest();
+  const spec::Formats formats = spec::default_array().formats;
+  for (std::size_t knob = 0; knob < format_knobs; ++knob)
+    at[knob] = (formats.*format_of(knob)).fraction_bits();
+  at[k_reciprocal] = 18, at[k_lanes] = 1;
+  const double memory = 9 * 16 + 3 * (24 + 24 + 16 + 24 + 23 + 39);
+  EXPECT_EQ(sizing.silicon_bits(at), memory + 3 * (16 * 16 + 24 * 18 + 39 * 18));
 }
 
 TEST_F(SizingTest, AnAccumulatorOfItsOwnIsRefused) {

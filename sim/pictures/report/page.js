@@ -9,6 +9,17 @@ function element(tag, text, parent) {
   return node;
 }
 
+// As pictures, in which no script runs.
+function fillDrawings(run) {
+  byId("drawings").hidden = run.drawings.length === 0;
+  for (const drawing of run.drawings) {
+    element("h2", drawing.title, byId("drawings"));
+    const picture = byId("drawings").appendChild(document.createElement("img"));
+    picture.alt = drawing.title;
+    picture.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(drawing.svg);
+  }
+}
+
 function fillWords(run) {
   byId("title").textContent = run.title;
   byId("subtitle").textContent = run.subtitle;
@@ -184,6 +195,7 @@ function connect(run, look, camera, player, redraw, stepFrames) {
 async function main() {
   const run = readRun();
   fillWords(run);
+  fillDrawings(run);
   if (run.frames.length === 0 || run.nodes === 0) {
     byId("stage").hidden = true;
     makeCharts(run, () => {}).draw();

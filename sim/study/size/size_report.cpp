@@ -2,8 +2,8 @@
 
 #include "sim/files/csv.h"
 #include "sim/input/count_text.h"
-#include "sim/run/array_info.h"
-#include "sim/run/hardware_time.h"
+#include "sim/machine/hardware_time.h"
+#include "sim/machine/silicon.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::string command_of(const SizeReport& r, const Setting& setting) {
   return "hopmesh run " + text_of(words);
 }
 
-run::HardwareTime time_of(const TrialRow& row) {
+machine::HardwareTime time_of(const TrialRow& row) {
   return {row.cycles, row.bus_cycles};
 }
 
@@ -32,8 +32,8 @@ void write_row(files::CsvWriter& table, const SizeReport& r, const SizeEvidence&
   table.cell(e.what).cell(e.knob);
   for (std::size_t knob = 0; knob < knob_count; ++knob) table.cell(r.sizing.text_of(e.setting, knob));
   const spec::ArraySpec array = r.sizing.array_of(e.setting);
-  table.cell(run::memory_bits(*r.prepared.mesh, array).total());
-  table.cell(run::multiplier_bits(*r.prepared.mesh, array));
+  table.cell(machine::memory_bits(array, r.prepared.mesh->topology()).total());
+  table.cell(machine::multiplier_bits(array, r.prepared.mesh->topology()).total());
   table.cell(name_of(e.row.outcome)).cell(e.row.error).cell(e.fails_by).cell(e.row.sweeps).cell(e.row.cycles);
   table.cell(e.row.bus_cycles).cell(time_of(e.row).seconds(array.clock_mhz));
   table.cell(slowest_step(e.row, array));
@@ -121,8 +121,8 @@ std::string silicon_lines(const SizeReport& r) {
   for (const spec::ArraySpec& array : arrays)
     lines += fmt::format("  {:<12} {:>8} {:>14} memory bits {:>14} multiplier bits\n", array.name,
                          with_noun(static_cast<std::uint64_t>(array.lanes), "lane"),
-                         grouped(run::memory_bits(*r.prepared.mesh, array).total()),
-                         grouped(run::multiplier_bits(*r.prepared.mesh, array)));
+                         grouped(machine::memory_bits(array, r.prepared.mesh->topology()).total()),
+                         grouped(machine::multiplier_bits(array, r.prepared.mesh->topology()).total()));
   return lines;
 }
 

@@ -1,7 +1,7 @@
 #include "sim/study/size/sizing.h"
 
 #include "rtl_model/spec/array_rules.h"
-#include "sim/run/array_info.h"
+#include "sim/machine/silicon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +115,8 @@ scene::Inputs Sizing::inputs_of(const Setting& setting) const {
 
 double Sizing::silicon_bits(const Setting& setting) const {
   const spec::ArraySpec array = array_of(setting);
-  return static_cast<double>(run::memory_bits(mesh_, array).total() + run::multiplier_bits(mesh_, array));
+  return static_cast<double>(machine::memory_bits(array, mesh_.topology()).total() +
+                             machine::multiplier_bits(array, mesh_.topology()).total());
 }
 
 std::string Sizing::text_of(const Setting& setting, std::size_t knob) const {

@@ -158,6 +158,9 @@ void print_requirements(const Results& r, const Line& line, double largest_mb) {
   fmt::print("  {:-<62}-|-{:-<28}-|-----\n", "", "");
   ratio(r, "waking by phase at least 20x faster than by clock", by_clock, 20);
   ratio(r, "at least 100x sc_fixed and a signal per value", sc_fixed, 100);
+  const double folded = updates_of(r, by_phase + ", folded");
+  requirement("by phase on 16 elements, one stage: at least 10 M updates/s", short_number(folded),
+              folded >= 1e7);
   requirement("the same codes, sweeps and cycles from all of them",
               r.errors().empty() ? "equal" : r.errors().front(), r.errors().empty());
   const double mb = r.samples("run flag-400/checked", "peak_mb").largest();

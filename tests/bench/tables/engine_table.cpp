@@ -58,6 +58,7 @@ void print_ratios(const Results& r) {
           updates(r, fmt::format("followed 1000000/{}", sweeps)) / updates(r, "plain/1000000"), 2, 3.5);
   ratio("two threads / one at 10^4 nodes", updates(r, "threads 10000/2") / updates(r, "threads 10000/1"), 1.7,
         1.95);
+  ratio("folded / one neuron an element", updates(r, "array/folded") / updates(r, "plain/400"), 0.8, 1);
   for (const char* array : {"kernel/generic", "array/32 bits", "array/rounding accumulator"})
     ratio(fmt::format("generic path / fast kernel, {}", array), updates(r, array) / updates(r, "plain/400"),
           0.05, 0.1);

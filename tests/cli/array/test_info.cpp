@@ -1,5 +1,6 @@
 // hopmesh info: numbers counted by hand and by the formulas of docs/hardware/cycles.md; --toml gives the
 // files back.
+#include "place.h"
 #include "tests/support/cli_test.h"
 
 #include <regex>
@@ -90,8 +91,6 @@ TEST_F(CliInfo, TellsTheRoundsOfAFold) {
   // The rounds of all phases, none shorter than the one before has neurons: 3 (2 (5 * 27 + 2 * 18) + 2 * 6 *
   // 27) cycles, the four neurons of the last one, and 19 for a reciprocal.
   EXPECT_EQ(row(folded, "prepare, once a run"), "2,021");
-  EXPECT_EQ(row(folded, "accumulators"), "0.2 KiB");      // 16 * 2 * 39 bits
-  EXPECT_EQ(row(folded, "states and links"), "39.0 KiB"); // 1140 (24 + 16 * 16) bits
   const std::string each = good("info flag-400 --set array.elements=4 --set array.pipeline=2 "
                                 "--set array.schedule=synchronous --set array.lanes=3")
                                .out;
@@ -99,6 +98,60 @@ TEST_F(CliInfo, TellsTheRoundsOfAFold) {
   EXPECT_EQ(row(each, "output stage"), "modified, one an element, 2 registers of pipeline");
   EXPECT_EQ(row(good("info flag-400 --set array.pipeline=2").out, "longest phase"),
             "33 = 27 accumulate + 2 normalise + 2 output + 2 pipeline");
+}
+
+TEST_F(CliInfo, TellsTheTimeOfAStepByHand) {
+  const std::string out = good("info two-nodes --sweeps 10").out;
+  EXPECT_THAT(out, ::testing::HasSubstr("A step of 10 sweeps\n"));
+  EXPECT_EQ(row(out, "bus: load, start"), "28 cycles, 9.82 %");      // 5 * 2 + (1 + 9) + 2 (1 + 3)
+  EXPECT_EQ(row(out, "array: START, prepare"), "23 cycles, 8.07 %"); // 1 + 22
+  EXPECT_EQ(row(out, "array: sweeps"), "220 cycles, 77.2 %");
+  EXPECT_EQ(row(out, "bus: read back"), "14 cycles, 4.91 %"); // 5 * 2 + (1 + 3)
+  EXPECT_EQ(row(out, "bus and array together"), "285 cycles, 0.00285 ms at 100 MHz");
+  EXPECT_EQ(row(out, "host, bus and array idle"), "not known");
+  // Three multipliers multiply nine weights a sweep.
+  EXPECT_EQ(row(out, "utilisation"), "12.3 % of the array's cycles, 10.5 % of array and bus");
+  const std::string twice = good("info two-nodes --sweeps 10 --set relax.expansions=2").out;
+  EXPECT_THAT(twice, ::testing::HasSubstr("A step of 10 sweeps in 2 runs\n"));
+  EXPECT_EQ(row(twice, "bus and array together"), "350 cycles, 0.0035 ms at 100 MHz"); // 285 + 28 + 23 + 14
+  EXPECT_THAT(good("info flag-400").out, ::testing::HasSubstr("A step of 300 sweeps\n"))
+      << "unasked, the scene's limit";
+  EXPECT_EQ(hopmesh("info two-nodes --sweeps 0").exit_code, 2);
+}
+
+TEST_F(CliInfo, TellsSiliconByHand) {
+  const std::string folded = good("info flag-400 --array folded").out;
+  EXPECT_EQ(row(folded, "states"), "3.3 KiB");           // 1140 * 24 bits
+  EXPECT_EQ(row(folded, "links"), "35.6 KiB, 16 times"); // 1140 * 16 * 16 bits
+  EXPECT_EQ(row(folded, "norms"), "384 bits");           // 16 * 24
+  EXPECT_EQ(row(folded, "reciprocals"), "3.2 KiB");      // 1140 (18 + 5) bits
+  EXPECT_EQ(row(folded, "accumulators"), "1,248 bits");  // 16 * 2 * 39
+  EXPECT_EQ(row(folded, "w L of the sums"), "4,096 bits");
+  EXPECT_EQ(row(folded, "R u"), "432 bits");
+  EXPECT_EQ(row(folded, "s r"), "702 bits");
+  EXPECT_EQ(row(folded, "all multipliers"), "5,230 bits");
+  EXPECT_EQ(row(folded, "subtractors of dividers"), "432 bits"); // 18 bits of a reciprocal, each of 24
+  const std::string binary = good("info flag-400 --set array.output=binary").out;
+  EXPECT_EQ(row(binary, "R u"), "no row R u");
+  EXPECT_EQ(row(binary, "subtractors of dividers"), "no row subtractors of dividers");
+  EXPECT_EQ(row(good("info flag-400 --array folded --set array.schedule=synchronous").out, "links"),
+            "71.2 KiB, 16 times, in two banks"); // twice 291,840 bits
+}
+
+/// Docs show this picture.
+TEST_F(CliInfo, DrawsTheMachine) {
+  good("info flag-400 --array folded --picture machine.svg");
+  const std::string svg = content_of(at("machine.svg"));
+  EXPECT_EQ(svg, content_of(fs::path(HOPMESH_SOURCE_DIR) / "docs/pictures/machine.svg"))
+      << "build-check/hopmesh info flag-400 --array folded --picture docs/pictures/machine.svg";
+  for (const char* figure : {"28,710 × 16 bits", "in each of 16 memories", "a sweep takes 2,131 cycles",
+                             "u = s · r: 39 × 18 bits", "one write a cycle", "Hold register"})
+    EXPECT_THAT(svg, ::testing::HasSubstr(figure));
+  good("info flag-400 --picture cells.svg");
+  const std::string cells = content_of(at("cells.svg"));
+  EXPECT_THAT(cells, ::testing::HasSubstr("1,140 neurons, nothing shared"));
+  EXPECT_THAT(cells, ::testing::Not(::testing::HasSubstr("Hold register")));
+  EXPECT_THAT(refused("info flag-400 --picture /proc/none/a.svg"), ::testing::HasSubstr("/proc/none"));
 }
 
 /// More elements than a phase has neurons are allowed, and told in a line.

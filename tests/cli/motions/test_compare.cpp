@@ -67,7 +67,7 @@ TEST_F(CliCompare, FiguresAreThoseOfTheRuns) {
     return n < 1000 ? digits : digits.substr(0, digits.size() - 3) + ',' + digits.substr(digits.size() - 3);
   };
   EXPECT_THAT(out, HasSubstr("systemc: " + grouped(stats["sweeps"]) + " sweeps, " +
-                             grouped(stats["simulated_cycles"]) + " cycles"));
+                             grouped(stats["array_cycles"]) + " cycles"));
 }
 
 TEST_F(CliCompare, APlanarScene) {

@@ -113,7 +113,7 @@ TEST_F(CliResults, StatsAreTheSumsOfTheTable) {
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
   EXPECT_EQ(stats["sweeps"], sum("sweeps"));
-  EXPECT_EQ(stats["simulated_cycles"], sum("cycles"));
+  EXPECT_EQ(stats["array_cycles"], sum("cycles"));
   EXPECT_EQ(stats["bus_cycles"], sum("bus_cycles"));
   EXPECT_EQ(stats["neuron_updates"], sum("sweeps") * 12);
   EXPECT_EQ(stats["steps_stopped_by_max_sweeps"], 6 - sum("converged"));

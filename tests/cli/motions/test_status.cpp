@@ -43,12 +43,34 @@ TEST_F(CliStatus, ADivergedRunIsBad) {
 TEST_F(CliStatus, TimeOnHardwareIsOfArrayAndBus) {
   const Finished f = good("run two-nodes --steps 4 --set array.clock_mhz=200 --out r");
   const auto stats = read_json(at("r") / "stats.json");
-  const double array = stats["simulated_cycles"], bus = stats["bus_cycles"];
+  const double array = stats["array_cycles"], bus = stats["bus_cycles"];
   EXPECT_DOUBLE_EQ(stats["hardware_seconds"], (array + bus) / 200e6);
   EXPECT_THAT(f.out, HasSubstr(std::to_string(static_cast<int>(100 * bus / (array + bus) + 0.5)) +
                                " % of it on the bus (the host's own part is not known)"));
   results_of("two-nodes --steps 4 --level reference", "d");
   EXPECT_FALSE(read_json(at("d") / "stats.json").contains("hardware_seconds"));
+}
+
+TEST_F(CliStatus, UtilisationIsOfMultiplierCycles) {
+  good("run two-nodes --steps 4 --out r");
+  const auto stats = read_json(at("r") / "stats.json");
+  const double array = stats["array_cycles"], bus = stats["bus_cycles"], sweeps = stats["sweeps"];
+  // Three multipliers take 9 weights a sweep, which is 22 cycles; a run begins with START and 22 of prepare.
+  EXPECT_DOUBLE_EQ(stats["utilisation"], 9 * sweeps / (3 * array));
+  EXPECT_DOUBLE_EQ(stats["utilisation_with_bus"], 9 * sweeps / (3 * (array + bus)));
+  const auto& timeline = stats["timeline"];
+  EXPECT_EQ(timeline["bus"], bus);
+  EXPECT_EQ(timeline["array_prepare"], 4 * 23);
+  EXPECT_EQ(timeline["array_sweeps"], 22 * sweeps);
+  EXPECT_EQ(timeline["array_waits_for_bus"], bus);
+  EXPECT_EQ(timeline["bus_waits_for_array"], array);
+  EXPECT_TRUE(timeline["host_with_both_idle"].is_null()) << "nobody knows it";
+  const std::string page = content_of(at("r") / "report.html");
+  EXPECT_THAT(page, HasSubstr("Who works when"));
+  EXPECT_THAT(page, HasSubstr("All 4 steps"));
+  results_of("two-nodes --steps 4 --level reference", "d");
+  EXPECT_FALSE(read_json(at("d") / "stats.json").contains("utilisation"));
+  EXPECT_THAT(content_of(at("d") / "report.html"), Not(HasSubstr("Who works when")));
 }
 
 // A flat flag may leave its plane to either side: outputs are as far apart as can be, energies are not.

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace hopmesh::run {
+namespace hopmesh::machine {
 
 struct HardwareTime {
   std::uint64_t array_cycles = 0, bus_cycles = 0;
@@ -18,4 +18,4 @@ struct HardwareTime {
   }
 };
 
-} // namespace hopmesh::run
+} // namespace hopmesh::machine
