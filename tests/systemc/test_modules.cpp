@@ -103,9 +103,9 @@ spec::ArraySpec stage_spec(Normaliser normaliser, Rounding rounding) {
 std::int64_t fired(OutputStage& stage, std::int64_t v, std::int64_t sum) {
   stage.load(static_cast<std::int32_t>(v));
   stage.normalise(sum);
-  stage.bias_by_r(stage.drive_raw());
+  stage.find_change(stage.drive_raw());
   const std::int64_t moved = stage.publish();
-  EXPECT_EQ(moved, std::abs(stage.state_raw() - v));
+  EXPECT_EQ(moved, stage.state_raw() - v);
   return stage.state_raw();
 }
 
@@ -196,11 +196,12 @@ TEST(Stage, TheReciprocalIsNeverTooLarge) {
 
 TEST(Detector, KeepsTheLargestOfASweep) {
   systemc::ConvergenceDetector d("d");
-  for (std::int64_t change : {3, 7, 0, 5}) d.report(change);
+  for (std::int64_t change : {3, -7, 0, 5}) d.report(1, change, false);
   EXPECT_EQ(d.largest_change(), 7);
+  EXPECT_EQ(d.largest_sum(), 0); // nobody asked
   d.begin_sweep();
   EXPECT_EQ(d.largest_change(), 0);
-  d.report(std::int64_t{1} << 31); // V from -1 to 1 in 32 bits
+  d.report(-1, std::int64_t{1} << 31, false); // V from -1 to 1 in 32 bits
   EXPECT_EQ(d.largest_change(), std::int64_t{1} << 31);
 }
 
