@@ -10,14 +10,15 @@ namespace hopmesh::scene {
 namespace {
 
 /// A list of m wants an array with a table that has room for it.
-void judge_momentum(Inputs& inputs) {
+void judge_momentum(const input::TomlSource& source, Inputs& inputs) {
+  const std::string key = "relax.momentum";
   const std::size_t entries = inputs.scene.relax.momentum.size();
   const auto room = static_cast<std::size_t>(inputs.array.momentum_entries);
   if (entries == 0) return;
   if (!spec::has_momentum(inputs.array))
-    inputs.notes.push_back("relax.momentum has no effect: it counts only with array.output = \"momentum\"");
+    inputs.notes.push_back(input::no_effect(source, *source.find(key), key, "array.output = \"momentum\""));
   else if (entries > room)
-    throw scene_error(inputs.scene, "relax.momentum", std::to_string(entries) + " numbers",
+    throw scene_error(inputs.scene, key, std::to_string(entries) + " numbers",
                       "at most the " + std::to_string(room) + " of array.momentum_entries");
 }
 
@@ -39,7 +40,7 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
   Scene fresh;
   inputs.notes = input::without_effect(source, scene_keys(inputs.scene), scene_keys(fresh));
   inputs.array = input::read_array(array, of_array, inputs.notes);
-  judge_momentum(inputs);
+  judge_momentum(source, inputs);
   return inputs;
 }
 

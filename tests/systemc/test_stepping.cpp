@@ -86,8 +86,8 @@ TEST_P(SteppingStage, QuotientsAreRoundedOnceAndThenLimited) {
       // s counts in the place of a product, 2^-21, what divides it in 2^-15: s / n = (s_code / 64) / n_code.
       for (std::int64_t n = 1; n <= 70; ++n) {
         stage.set_norm(n);
-        std::int64_t scale = 1; // r = scale / n, nine bits of it
-        while (scale / n < 256) scale *= 2;
+        std::int64_t scale = 128; // r = scale / n, nine bits of it: 2^(9 - 2) times 2^B
+        for (std::int64_t rest = n; rest > 0; rest /= 2) scale *= 2;
         for (std::int64_t s = -64 * 3 * n; s <= 64 * 3 * n; s += 7) {
           stage.normalise(s);
           const std::int64_t exact =
