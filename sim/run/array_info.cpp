@@ -141,7 +141,7 @@ FigureTable bus(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
                      {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
                      {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
   if (spec::has_momentum(array))
-    table.rows.push_back(
+    table.second.push_back(
         {"window MOMENTUM", window_text(array, map[spec::Window::MOMENTUM], spec::momentum_format.width)});
   return table;
 }
