@@ -43,6 +43,8 @@ std::string multipliers_text(const spec::ArraySpec& array, const spec::Topology&
 
 std::string stage_text(const spec::ArraySpec& array) {
   std::string text(name_of(array.output));
+  if (array.output == spec::Output::projected) text += fmt::format(", omega {}", array.relaxation / 16.0);
+  if (spec::has_momentum(array)) text += fmt::format(", a table of {} m", array.momentum_entries);
   if (spec::is_folded(array)) text += spec::shares_stage(array) ? ", one for all" : ", one an element";
   if (array.pipeline > 0)
     text += fmt::format(", {} of pipeline",
@@ -133,11 +135,15 @@ std::string window_text(const spec::ArraySpec& array, const spec::MemoryWindow& 
 FigureTable bus(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
   const spec::MemoryMap map = spec::memory_map(array, mesh.topology());
   const spec::Formats& f = array.formats;
-  return {"Bus",
-          {{"registers and windows", fmt::format("{} KiB", grouped(map.span / 1024))},
-           {"window WEIGHT", window_text(array, map[spec::Window::WEIGHT], f.weight.width)},
-           {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
-           {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
+  FigureTable table{"Bus",
+                    {{"registers and windows", fmt::format("{} KiB", grouped(map.span / 1024))},
+                     {"window WEIGHT", window_text(array, map[spec::Window::WEIGHT], f.weight.width)},
+                     {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
+                     {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
+  if (spec::has_momentum(array))
+    table.second.push_back(
+        {"window MOMENTUM", window_text(array, map[spec::Window::MOMENTUM], spec::momentum_format.width)});
+  return table;
 }
 
 FigureTable memory(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
@@ -168,6 +174,12 @@ std::string start_text(const scene::Start& start) {
   return place + fmt::format(", at ({}, {}, {}) m/s", v[0], v[1], v[2]);
 }
 
+std::string rest_text(const scene::RelaxSpec& relax) {
+  return relax.stop == scene::Stop::sum
+             ? fmt::format("no free neuron's |s| is above {} of the first sweep's largest", relax.share)
+             : fmt::format("no output moves by more than {}", relax.threshold);
+}
+
 FigureTable motion(const scene::Scene& scene) {
   return {"Motion",
           {{"formulation", formulation(scene)},
@@ -175,9 +187,8 @@ FigureTable motion(const scene::Scene& scene) {
                                  scene.motion.time_step)},
            {"start", start_text(scene.mesh.start)},
            {"expansions a step", fmt::format("{}", scene.relax.expansions)},
-           {"relaxed until",
-            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
-                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+           {"relaxed until", fmt::format("{}, at most {} sweeps", rest_text(scene.relax),
+                                         grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
 }
 
 /// What values of keys leave out, as the table has it.
@@ -224,7 +235,8 @@ FigureTable left_out(const scene::Scene& scene, const levels::BuiltMesh& mesh) {
 } // namespace
 
 // A folded array reads links by a memory in each element, and by another bank where all fire at once; sums
-// wait in front of a shared stage in registers of their own.
+// wait in front of a shared stage in registers of their own. A restart chooses between links of V and of Y:
+// a folded array has both in its memories.
 MemoryBits memory_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
   const spec::Topology& t = mesh.topology();
   const spec::Formats& f = array.formats;
@@ -232,9 +244,11 @@ MemoryBits memory_bits(const levels::BuiltMesh& mesh, const spec::ArraySpec& arr
     return static_cast<std::uint64_t>(format.width);
   };
   const std::uint64_t neurons = t.neurons(), sum = width(spec::accumulator_format(array, t.most_taps()));
+  const std::uint64_t points = spec::has_momentum(array) ? 2 : 1;
   std::uint64_t links = width(f.link);
-  if (spec::is_folded(array)) links *= accumulators(array, t) * link_banks(array);
-  return {t.weight_words() * width(f.weight), neurons * width(f.bias), neurons * (width(f.state) + links),
+  if (spec::is_folded(array)) links *= accumulators(array, t) * link_banks(array) * points;
+  return {t.weight_words() * width(f.weight), neurons * width(f.bias),
+          neurons * (points * width(f.state) + links),
           accumulators(array, t) * sum * (spec::shares_stage(array) ? 2 : 1)};
 }
 
@@ -245,7 +259,9 @@ std::uint64_t multiplier_bits(const levels::BuiltMesh& mesh, const spec::ArraySp
     return static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b);
   };
   const std::uint64_t sums = accumulators(array, t) * product(array.lanes * f.weight.width, f.link.width);
-  std::uint64_t stage = product(f.state.width, f.drive.width);
+  std::uint64_t stage = product(f.state.width, f.drive.width); // R u
+  if (spec::has_momentum(array)) stage = product(f.state.width + 1, spec::momentum_format.width);
+  if (array.output == spec::Output::projected) stage = 0; // omega is a constant
   if (array.normaliser == spec::Normaliser::reciprocal)
     stage += product(spec::accumulator_format(array, t.most_taps()).width, array.reciprocal_bits);
   return sums + stage * (spec::shares_stage(array) ? 1 : accumulators(array, t));

@@ -12,7 +12,7 @@ std::vector<double> read_list(const input::TomlSource& source, const input::Toml
   const std::string key = "relax.momentum";
   if (const auto* word = value.as<std::string>(); word && *word == fista) return {};
   const auto* items = value.as<std::vector<input::TomlValue>>();
-  if (!items || items->empty()) throw source.error(value, key, of_entry.expected);
+  if (!items || items->empty()) throw source.error(value, key, of_entry.words);
   const input::KeyReader reader(source);
   std::vector<double> list;
   for (const input::TomlValue& item : *items) list.push_back(reader.number(item, key, of_entry));

@@ -51,8 +51,8 @@ struct RelaxSpec {
   std::int64_t max_sweeps = 300;
   std::int64_t expansions = 1;
   Stop stop = Stop::change;
-  double share = 0x1p-13;       ///< 0: none
-  std::vector<double> momentum; ///< m of each sweep, the last for all that follow; empty: "fista"
+  double share = 0x1p-13;            ///< 0: none
+  std::vector<double> momentum = {}; ///< m of each sweep, the last for all that follow; empty: "fista"
 };
 
 /// The table of m as the value of a key.

@@ -1,5 +1,6 @@
 // The array `descent` in SystemC: in exact integer arithmetic, the network's energy falls or stays in every
 // sweep, whatever the symmetric network. And the one order in which nothing is promised: all at once.
+#include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/presets.h"
 #include "tests/support/dut_job.h"
 #include "tests/support/random_network.h"

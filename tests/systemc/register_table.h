@@ -56,6 +56,8 @@ inline std::vector<WindowRow> window_rows(const spec::Topology& t, const spec::A
     if (row.name == "BIAS") row.width = a.formats.bias.width;
     if (row.name == "OUTPUT") row.width = a.formats.state.width;
     if (row.name == "WEIGHT") row.width = a.formats.weight.width;
+    if (row.name == "MOMENTUM") row.width = 16;
+    if (row.name == "MOMENTUM" && a.output == spec::Output::momentum) row.codes = a.momentum_entries;
     if (row.name == "WEIGHT")
       for (std::size_t c = 0; c < t.cells(); ++c) row.codes += t.neurons_per_cell * t.taps(c);
     const std::uint64_t share = !a.packing || row.width > 16 ? 1 : row.width > 8 ? 2 : 4;
