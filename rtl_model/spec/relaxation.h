@@ -23,7 +23,7 @@ struct Relaxation {
   bool converged = false;
   std::uint32_t largest_change = 0; ///< |Delta V| of the last sweep, raw code of the state
   std::uint64_t cycles = 0;
-  /// |s| of the last sweep, of neurons that may still move: raw code of the accumulator; 0 without `by_sum`.
+  /// |s| of the last sweep, of neurons that no bound holds: raw code of the accumulator; 0 without `by_sum`.
   std::uint64_t largest_sum = 0;
 
   bool operator==(const Relaxation& o) const {

@@ -18,6 +18,7 @@ class ConvergenceDetector : public sc_core::sc_module {
 
   /// `by_sum`: the comparators of |s| work; else they idle.
   void begin_run(bool by_sum) { by_sum_ = by_sum; }
+  bool compares_sums() const { return by_sum_; }
   void begin_sweep() { largest_change_ = largest_sum_ = way_ = 0; }
   /// Of a neuron: s, V' - V, and whether s holds it at a bound.
   void report(std::int64_t sum, std::int64_t change, bool held) {

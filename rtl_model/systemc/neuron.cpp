@@ -59,7 +59,7 @@ void Neuron::normalise() {
 
 void Neuron::publish() {
   const std::int64_t sum = accumulator.sum_raw();
-  const bool held = output.is_held(sum);
+  const bool held = detector_.compares_sums() && output.is_held(sum);
   detector_.report(sum, output.publish(0, momentum_.now()), held);
   link_.write(p_, output.link_raw());
 }

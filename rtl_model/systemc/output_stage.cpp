@@ -81,8 +81,8 @@ void OutputStage::find_change(std::int64_t drive_raw, std::size_t place) {
 }
 
 bool OutputStage::is_held(std::int64_t sum_raw, std::size_t place) const {
-  const std::int64_t one = path_.formats.state.one_raw(), at = memory_[place].*base();
-  return (at == one && sum_raw >= 0) || (at == -one && sum_raw <= 0);
+  const std::int64_t one = path_.formats.link.one_raw(), shown = link_raw(place);
+  return (shown == one && sum_raw >= 0) || (shown == -one && sum_raw <= 0);
 }
 
 std::int64_t OutputStage::publish(std::size_t place, std::int64_t momentum_raw) {

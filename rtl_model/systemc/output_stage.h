@@ -24,8 +24,7 @@ class OutputStage : public sc_core::sc_module {
   /// delta <- Q[R u], where the R bias pulls V to the bound that u points to; or the way from V to where u
   /// leads. Of a u that has left its register: as it was there.
   void find_change(std::int64_t drive_raw, std::size_t place = 0);
-  /// Does s push the neuron to the bound at which it stands, so that it stays there? Asked before it is
-  /// published.
+  /// Does s push the neuron to the bound at which its link shows it? Asked before it is published.
   bool is_held(std::int64_t sum_raw, std::size_t place = 0) const;
   /// V <- V + delta, and Y as far ahead of it as m says; returns delta.
   std::int64_t publish(std::size_t place = 0, std::int64_t momentum_raw = 0);
