@@ -1,9 +1,6 @@
 /* From doubles to raw codes and back, over the bus. Registers and windows: docs/hardware/registers.md. */
-#include "firmware/driver.h"
-
 #include "firmware/doubles.h"
-#include "firmware/registers.h"
-#include "firmware/try.h"
+#include "firmware/driver_parts.h"
 
 static uint32_t whole_places(double threshold, const hm_format* format) {
   const hm_format places = {32, 32 - hm_fraction_bits(format), HM_TRN_ZERO, HM_SAT};
@@ -13,28 +10,9 @@ static uint32_t whole_places(double threshold, const hm_format* format) {
 
 /* ---- what stands behind the bus ---- */
 
-static int read_register(const hm_driver* d, uint32_t offset, uint32_t* word) {
-  return d->line.bus->read(d->line.bus->context, offset, word);
-}
-
-static int write_register(const hm_driver* d, uint32_t offset, uint32_t word) {
-  return d->line.bus->write(d->line.bus->context, offset, word);
-}
-
-static int read_format(const hm_driver* d, uint32_t offset, hm_format* format) {
-  uint32_t word;
-  TRY(read_register(d, offset, &word));
-  /* Every format register has the fields of this one. */
-  *format = (hm_format){(int)HM_FIELD(word, CAP_FORMAT_WEIGHT_WIDTH),
-                        (int)(int8_t)HM_FIELD(word, CAP_FORMAT_WEIGHT_INTEGER_BITS),
-                        (int)HM_FIELD(word, CAP_FORMAT_WEIGHT_ROUNDING),
-                        (int)HM_FIELD(word, CAP_FORMAT_WEIGHT_OVERFLOW)};
-  return HM_OK;
-}
-
 static int expect(const hm_driver* d, uint32_t offset, uint32_t wanted, int otherwise) {
   uint32_t word;
-  TRY(read_register(d, offset, &word));
+  TRY(hm_read_register(d, offset, &word));
   return word == wanted ? HM_OK : otherwise;
 }
 
@@ -43,7 +21,7 @@ static int expect_words(const hm_driver* d, uint32_t offset_register, const uint
                         uint32_t count) {
   const hm_line* line = &d->line;
   uint32_t offset;
-  TRY(read_register(d, offset_register, &offset));
+  TRY(hm_read_register(d, offset_register, &offset));
   for (uint32_t done = 0; done < count;) {
     const uint32_t part = count - done < line->buffer_words ? count - done : line->buffer_words;
     TRY(line->bus->read_burst(line->bus->context, offset + 4 * done, line->buffer, part));
@@ -67,12 +45,12 @@ static int find_window(const hm_driver* d, uint32_t offset_register, uint32_t co
                        hm_window* window) {
   window->codes_a_word = codes_a_word;
   if (codes_a_word != 1 && codes_a_word != 2 && codes_a_word != 4) return HM_ERROR_ID;
-  return read_register(d, offset_register, &window->offset);
+  return hm_read_register(d, offset_register, &window->offset);
 }
 
 static int find_windows(hm_driver* d) {
   uint32_t packing;
-  TRY(read_register(d, HM_REG_CAP_PACKING, &packing));
+  TRY(hm_read_register(d, HM_REG_CAP_PACKING, &packing));
   TRY(find_window(d, HM_REG_CAP_WINDOW_BIAS, HM_FIELD(packing, CAP_PACKING_BIAS), &d->biases));
   TRY(find_window(d, HM_REG_CAP_WINDOW_OUTPUT, HM_FIELD(packing, CAP_PACKING_OUTPUT), &d->outputs));
   return find_window(d, HM_REG_CAP_WINDOW_WEIGHT, HM_FIELD(packing, CAP_PACKING_WEIGHT), &d->weights);
@@ -80,7 +58,7 @@ static int find_windows(hm_driver* d) {
 
 /* A minor version only adds what a driver need not know. */
 static int expect_version(hm_driver* d) {
-  TRY(read_register(d, HM_REG_VERSION, &d->version));
+  TRY(hm_read_register(d, HM_REG_VERSION, &d->version));
   return HM_FIELD(d->version, VERSION_MAJOR) == HM_VERSION_MAJOR ? HM_OK : HM_ERROR_VERSION;
 }
 
@@ -89,12 +67,13 @@ static int look_at(hm_driver* d, const hm_mesh* mesh) {
   TRY(expect_version(d));
   TRY(expect_mesh(d, mesh));
   TRY(find_windows(d));
-  TRY(read_register(d, HM_REG_CAP_NORMALISER, &d->normaliser));
-  TRY(read_register(d, HM_REG_CAP_OUTPUT, &d->output));
-  TRY(read_format(d, HM_REG_CAP_FORMAT_WEIGHT, &d->weight));
-  TRY(read_format(d, HM_REG_CAP_FORMAT_BIAS, &d->bias));
-  TRY(read_format(d, HM_REG_CAP_FORMAT_STATE, &d->state));
-  return write_register(d, HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+  TRY(hm_read_register(d, HM_REG_CAP_NORMALISER, &d->normaliser));
+  TRY(hm_read_register(d, HM_REG_CAP_OUTPUT, &d->output));
+  TRY(hm_read_format(d, HM_REG_CAP_FORMAT_WEIGHT, &d->weight));
+  TRY(hm_read_format(d, HM_REG_CAP_FORMAT_BIAS, &d->bias));
+  TRY(hm_read_format(d, HM_REG_CAP_FORMAT_STATE, &d->state));
+  if (d->output == HM_OUTPUT_MOMENTUM) TRY(hm_driver_open_momentum(d));
+  return hm_write_register(d, HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
 }
 
 int hm_driver_open(hm_driver* d, const hm_bus* bus, const hm_mesh* mesh, uint32_t* buffer,
@@ -200,12 +179,12 @@ static int load_prescaled_biases(hm_driver* d, const hm_mesh* mesh, const hm_net
 }
 
 /* Only the sign of a binary neuron's s counts: no row is divided, and W stays symmetric. */
-static int prescales(const hm_driver* d) {
+int hm_driver_prescales(const hm_driver* d) {
   return d->output == HM_OUTPUT_MODIFIED && d->normaliser == HM_NORMALISER_PRESCALED;
 }
 
 static int load_rows(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
-  if (prescales(d)) {
+  if (hm_driver_prescales(d)) {
     TRY(load_prescaled_weights(d, mesh, network));
     return load_prescaled_biases(d, mesh, network);
   }
@@ -223,21 +202,21 @@ static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* net
 /* ---- one relaxation ---- */
 
 static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
-  TRY(write_register(d, HM_REG_THRESHOLD, whole_places(threshold, &d->state)));
-  TRY(write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
-  TRY(write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
-  TRY(write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
+  TRY(hm_write_register(d, HM_REG_THRESHOLD, whole_places(threshold, &d->state)));
+  TRY(hm_write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
+  TRY(hm_write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
+  TRY(hm_write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
   TRY(d->line.bus->wait(d->line.bus->context));
-  return write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);
+  return hm_write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);
 }
 
 static int read_counters(const hm_driver* d, hm_relaxation* result) {
   uint32_t status, low, high;
-  TRY(read_register(d, HM_REG_STATUS, &status));
+  TRY(hm_read_register(d, HM_REG_STATUS, &status));
   if (!(status & HM_STATUS_DONE)) return HM_ERROR_BUSY;
-  TRY(read_register(d, HM_REG_SWEEPS, &result->sweeps));
-  TRY(read_register(d, HM_REG_CYCLES_LO, &low));
-  TRY(read_register(d, HM_REG_CYCLES_HI, &high));
+  TRY(hm_read_register(d, HM_REG_SWEEPS, &result->sweeps));
+  TRY(hm_read_register(d, HM_REG_CYCLES_LO, &low));
+  TRY(hm_read_register(d, HM_REG_CYCLES_HI, &high));
   result->converged = (status & HM_STATUS_CONVERGED) != 0;
   result->cycles = (uint64_t)high << 32 | low;
   return HM_OK;
@@ -256,13 +235,14 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
   const uint64_t bias = largest_bits(network->bias, neurons);
   if (!is_finite(weight) || !is_finite(bias) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
-  d->shift = prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
+  d->shift = hm_driver_prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = d->vanished = 0;
   uint32_t status;
-  TRY(read_register(d, HM_REG_STATUS, &status));
+  TRY(hm_read_register(d, HM_REG_STATUS, &status));
   if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
   TRY(load_rows(d, mesh, network, d->shift));
   TRY(load_outputs(d, mesh, network));
+  TRY(hm_driver_write_stop(d, mesh, network));
   TRY(start_and_wait(d, threshold, max_sweeps));
   TRY(read_counters(d, result));
   return read_outputs(d, mesh, network);

@@ -48,12 +48,13 @@
   HM_WHOLE_WORD(X, CAP_WINDOW_OUTPUT, RO)                                                                    \
   HM_WHOLE_WORD(X, CAP_WINDOW_WEIGHT, RO)                                                                    \
   HM_WHOLE_WORD(X, CAP_WINDOW_MOMENTUM, RO)                                                                  \
+  HM_WHOLE_WORD(X, CAP_RELAXATION, RO)                                                                       \
   X(CONTROL, START, 0, 1, WO, "begin a run")                                                                 \
   X(CONTROL, RESET, 1, 1, WO, "registers to their resets, weights, biases and outputs to zero")              \
   X(CONTROL, ABORT, 2, 1, WO, "end the run with the sweep at hand")                                          \
   X(STATUS, BUSY, 0, 1, RO, "a run or a RESET is at work")                                                   \
   X(STATUS, DONE, 1, 1, RO, "a run has ended")                                                               \
-  X(STATUS, CONVERGED, 2, 1, RO, "its last sweep moved no V by more than THRESHOLD")                         \
+  X(STATUS, CONVERGED, 2, 1, RO, "its last sweep moved no V by more than THRESHOLD, or met STOP")            \
   X(STATUS, ABORTED, 3, 1, RO, "an ABORT came while it ran")                                                 \
   X(IRQ_ENABLE, DONE, 0, 1, RW, "a run has ended")                                                           \
   X(IRQ_ENABLE, REFUSED, 1, 1, RW, "a START, RESET or ABORT came when it could not be taken")                \
@@ -68,6 +69,12 @@
   HM_WHOLE_WORD(X, BUS_CYCLES_LO, RO)                                                                        \
   HM_WHOLE_WORD(X, BUS_CYCLES_HI, RO)                                                                        \
   X(IRQ_TEST, DONE, 0, 1, WO, "a run has ended")                                                             \
-  X(IRQ_TEST, REFUSED, 1, 1, WO, "a START, RESET or ABORT came when it could not be taken")
+  X(IRQ_TEST, REFUSED, 1, 1, WO, "a START, RESET or ABORT came when it could not be taken")                  \
+  HM_WHOLE_WORD(X, LARGEST_SUM_LO, RO)                                                                       \
+  HM_WHOLE_WORD(X, LARGEST_SUM_HI, RO)                                                                       \
+  HM_WHOLE_WORD(X, SUM_THRESHOLD_LO, RW)                                                                     \
+  HM_WHOLE_WORD(X, SUM_THRESHOLD_HI, RW)                                                                     \
+  X(STOP, BY_SUM, 0, 1, RW, "by LARGEST_SUM, not by LARGEST_CHANGE")                                         \
+  X(STOP, SHARE, 8, 6, RW, "also where LARGEST_SUM is at most 2^-SHARE of the first sweep's; 0: no share")
 
 #endif

@@ -11,12 +11,11 @@
 
 #define HM_ID_VALUE 0x484F504Du /* "HOPM" */
 #define HM_VERSION_MAJOR 2u
-#define HM_VERSION_MINOR 0u
+#define HM_VERSION_MINOR 1u
 #define HM_VERSION_VALUE (HM_VERSION_MAJOR << 16 | HM_VERSION_MINOR)
 
 /* X(NAME, offset, access, reset, meaning). Access: RO read only; RW read and write; WO reads as zero;
    W1C reads as it is, a written 1 clears the bit. A reset of 0 for a capability: set when the array is built.
-   0x0B4 and 0x0B8 are kept for LARGEST_SUM, the largest |s| of a run, which no array tells yet.
  */
 #define HM_REGISTERS(X)                                                                                      \
   X(ID, 0x000, RO, HM_ID_VALUE, "the letters HOPM")                                                          \
@@ -38,13 +37,14 @@
   X(CAP_FORMAT_STATE, 0x03C, RO, 0, "format of V in the output stage and in the OUTPUT window")              \
   X(CAP_FORMAT_LINK, 0x040, RO, 0, "format of V on the links")                                               \
   X(CAP_FORMAT_ACCUMULATOR, 0x044, RO, 0, "format of the input accumulator s")                               \
-  X(CAP_OUTPUT, 0x048, RO, 0, "0 modified: V moves by R s / N; 1 binary: V is the sign of s")                \
+  X(CAP_OUTPUT, 0x048, RO, 0,                                                                                \
+    "0 modified: V moves by R s / N; 1 binary: V is the sign of s; 2 projected; 3 momentum")                 \
   X(CAP_ELEMENTS, 0x04C, RO, 0, "elements that neurons share; 0: one a neuron")                              \
   X(CAP_STAGES, 0x050, RO, 0,                                                                                \
     "0 an output stage an element, 1 one for all; nothing where CAP_ELEMENTS is 0")                          \
   X(CAP_PIPELINE, 0x054, RO, 0, "registers inside normalise and output beyond the least")                    \
   X(CAP_PACKING, 0x058, RO, 0, "codes in a word of each window that can be packed: 1, 2 or 4")               \
-  X(CAP_MOMENTUM_WORDS, 0x05C, RO, 0, "words in the MOMENTUM window: 0 where no output stage has a table")   \
+  X(CAP_MOMENTUM_WORDS, 0x05C, RO, 0, "words in the MOMENTUM window: 0 where the output stage has no table") \
   X(CAP_SPAN, 0x060, RO, 0, "bytes that hold registers and windows: a power of two; 0 stands for 2^32")      \
   X(CAP_WINDOW_FIRST_LINK, 0x064, RO, 0, "where the FIRST_LINK window begins; 0 if it has no words")         \
   X(CAP_WINDOW_LINK, 0x068, RO, 0, "where the LINK window begins; 0 if it has no words")                     \
@@ -52,11 +52,13 @@
   X(CAP_WINDOW_OUTPUT, 0x070, RO, 0, "where the OUTPUT window begins; 0 if it has no words")                 \
   X(CAP_WINDOW_WEIGHT, 0x074, RO, 0, "where the WEIGHT window begins; 0 if it has no words")                 \
   X(CAP_WINDOW_MOMENTUM, 0x078, RO, 0, "where the MOMENTUM window begins; 0 if it has no words")             \
+  X(CAP_RELAXATION, 0x07C, RO, 0, "omega of a projected array, in sixteenths; 0 with another output")        \
   X(CONTROL, 0x080, WO, 0, "what the array shall do")                                                        \
   X(STATUS, 0x084, RO, 0, "what the array does, and how its last run ended")                                 \
   X(IRQ_ENABLE, 0x088, RW, 0, "which causes raise the interrupt line")                                       \
   X(IRQ_STATUS, 0x08C, W1C, 0, "what has happened since it was cleared")                                     \
-  X(THRESHOLD, 0x090, RW, 0, "stop when no V moved by more, in units of the state's last place")             \
+  X(THRESHOLD, 0x090, RW, 0,                                                                                 \
+    "stop when no V moved by more, in units of the state's last place; not by STOP")                         \
   X(MAX_SWEEPS, 0x094, RW, 1, "stop after so many sweeps; 0 is taken as 1")                                  \
   X(SWEEPS, 0x098, RO, 0, "sweeps of the last run")                                                          \
   X(LARGEST_CHANGE, 0x09C, RO, 0, "largest |V' - V| of the last sweep, in units of the state's last place")  \
@@ -65,7 +67,14 @@
   X(CYCLES_HI, 0x0A4, RO, 0, "the high word that belongs to the CYCLES_LO read last")                        \
   X(BUS_CYCLES_LO, 0x0A8, RO, 0, "cycles this bus was held since RESET, low word; latches BUS_CYCLES_HI")    \
   X(BUS_CYCLES_HI, 0x0AC, RO, 0, "the high word that belongs to the BUS_CYCLES_LO read last")                \
-  X(IRQ_TEST, 0x0B0, WO, 0, "a written 1 sets that bit of IRQ_STATUS")
+  X(IRQ_TEST, 0x0B0, WO, 0, "a written 1 sets that bit of IRQ_STATUS")                                       \
+  X(LARGEST_SUM_LO, 0x0B4, RO, 0,                                                                            \
+    "largest |s| of the last sweep among neurons that may still move, in units of the accumulator's last "   \
+    "place, low word; latches LARGEST_SUM_HI; 0 without BY_SUM")                                             \
+  X(LARGEST_SUM_HI, 0x0B8, RO, 0, "the high word that belongs to the LARGEST_SUM_LO read last")              \
+  X(SUM_THRESHOLD_LO, 0x0BC, RW, 0, "with BY_SUM: stop where LARGEST_SUM is at most this, low word")         \
+  X(SUM_THRESHOLD_HI, 0x0C0, RW, 0, "its high word")                                                         \
+  X(STOP, 0x0C4, RW, 0, "by which measure a run stops")
 
 /* X(NAME, access, meaning), in the order in which they lie behind the registers. Where a window begins and
    how many words it has, the capabilities tell. A code is two's complement in its part of a word. */
@@ -77,7 +86,8 @@
   X(WEIGHT, RW,                                                                                              \
     "CAP_WEIGHT_WORDS words. A row of codes a neuron: the cell's own neurons, then each neighbour's in "     \
     "LINK order")                                                                                            \
-  X(MOMENTUM, RW, "CAP_MOMENTUM_WORDS words: kept for a table of output stages to come")
+  X(MOMENTUM, RW,                                                                                            \
+    "CAP_MOMENTUM_WORDS words: the table of m, a code of 16 bits an entry, 15 of them behind the point")
 
 /* Registers lie below this byte, windows above. */
 enum { HM_REGISTER_BYTES = 0x1000 };
@@ -113,7 +123,7 @@ enum {
 enum { HM_IRQ_DONE = 1 << HM_SHIFT_IRQ_STATUS_DONE, HM_IRQ_REFUSED = 1 << HM_SHIFT_IRQ_STATUS_REFUSED };
 enum { HM_SCHEDULE_COLOURED, HM_SCHEDULE_SEQUENTIAL, HM_SCHEDULE_SYNCHRONOUS };
 enum { HM_STAGES_EACH, HM_STAGES_ONE };
-enum { HM_OUTPUT_MODIFIED, HM_OUTPUT_BINARY };
+enum { HM_OUTPUT_MODIFIED, HM_OUTPUT_BINARY, HM_OUTPUT_PROJECTED, HM_OUTPUT_MOMENTUM };
 enum { HM_NORMALISER_PRESCALED, HM_NORMALISER_RECIPROCAL, HM_NORMALISER_DIVIDER };
 /* Rounding and overflow modes as the format registers number them (the order of SystemC's sc_q_mode,
  * sc_o_mode). */

@@ -12,6 +12,8 @@ inline constexpr int least_width = 4, most_width = 32; ///< of every format but 
 inline constexpr int most_sum_width = 62;              ///< of the accumulator, exact or not
 inline constexpr int least_reciprocal_bits = 4, most_reciprocal_bits = 32;
 inline constexpr int most_lanes = 64;
+inline constexpr int most_relaxation = 31; ///< sixteenths: less than 2
+inline constexpr int most_momentum_entries = 4096;
 inline constexpr int most_elements = 4096;
 /// Registers of a pipeline; most_pipeline knows how many a normaliser can have.
 inline constexpr int most_registers = 4;
@@ -64,16 +66,16 @@ inline ArrayKeys element_keys(ArraySpec& a) {
 
 /// Keys of what makes V of a sum.
 inline ArrayKeys stage_keys(ArraySpec& a) {
-  const bool modified = a.output == Output::modified;
-  const char* const with_modified = "array.output = \"modified\"";
-  const char* const with_reciprocal = modified ? "array.normaliser = \"reciprocal\"" : with_modified;
+  const char* const with_division = "an array.output other than \"binary\"";
+  const char* const with_reciprocal = divides(a) ? "array.normaliser = \"reciprocal\"" : with_division;
   return {
-      ArrayKey("array.output", choice(a.output, output_names), "V moves by R · s / N; or V is the sign of s")
+      ArrayKey("array.output", choice(a.output, output_names),
+               "V moves by R · s / N; is the sign of s; moves by ω · s / |w_ii|; or by s / N, with momentum")
           .in_vectors(2)
           .plain(Output::modified),
       ArrayKey("array.normaliser", choice(a.normaliser, normaliser_names),
                "how u = s / N is made; not looked at beside binary outputs")
-          .counts_only(modified, with_modified)
+          .counts_only(divides(a), with_division)
           .in_vectors(3)
           .plain(Normaliser::prescaled),
       ArrayKey("array.reciprocal_bits", &a.reciprocal_bits, "width of the truncated reciprocal")
@@ -82,6 +84,17 @@ inline ArrayKeys stage_keys(ArraySpec& a) {
           .counts_only(has_reciprocal(a), with_reciprocal)
           .in_vectors(4)
           .plain(18),
+      ArrayKey("array.relaxation", &a.relaxation, "ω of `projected` in sixteenths: 16 is Gauss and Seidel's")
+          .allows(detail::numbers(1, most_relaxation))
+          .counts_only(a.output == Output::projected, "array.output = \"projected\"")
+          .in_vectors(31)
+          .plain(16),
+      ArrayKey("array.momentum_entries", &a.momentum_entries,
+               "entries of the table of m, of which a sweep takes one and the last one holds on")
+          .allows(detail::numbers(1, most_momentum_entries))
+          .counts_only(has_momentum(a), "array.output = \"momentum\"")
+          .in_vectors(32)
+          .plain(1),
       ArrayKey("array.pipeline", &a.pipeline,
                "more registers inside normalise and output: longer, and a faster clock")
           .allows(detail::numbers(0, most_registers))
@@ -99,8 +112,8 @@ inline ArrayKeys clock_keys(ArraySpec& a) {
           .plain(32),
       ArrayKey("array.packing", &a.packing, "codes of 16 bits and less share the words of the bus")
           .allows({"`true`, `false`"})
-          .counts_only(can_pack(a), "a weight, bias or state of at most 16 bits")
-          .in_vectors(30) // behind all others
+          .counts_only(can_pack(a), "a weight, bias or state of at most 16 bits, or a table of m")
+          .in_vectors(30) // behind the formats
           .plain(false),
       ArrayKey("array.clock_mhz", &a.clock_mhz, "only for times in seconds: changes neither bits nor cycles")
           .in_unit("MHz")

@@ -25,10 +25,12 @@ inline constexpr std::array<std::string_view, 3> normaliser_names{"prescaled", "
 
 /// How V follows from s.
 enum class Output : std::uint8_t {
-  modified, ///< a step toward the bound that s points to, by s / N
-  binary    ///< that bound at once, the sign of s; a sum of zero leaves V as it is
+  modified,  ///< a step toward the bound that s points to, by s / N
+  binary,    ///< that bound at once, the sign of s; a sum of zero leaves V as it is
+  projected, ///< omega s / |w_ii| further, held in the box: over-relaxation, one colour or neuron at a time
+  momentum   ///< s / N further from a point ahead of V, held in the box; all neurons at once
 };
-inline constexpr std::array<std::string_view, 2> output_names{"modified", "binary"};
+inline constexpr std::array<std::string_view, 4> output_names{"modified", "binary", "projected", "momentum"};
 
 /// Who normalises and moves V where neurons share elements.
 enum class Stages : std::uint8_t {

@@ -60,10 +60,28 @@ inline std::optional<SpecFault> formats_fault(const ArraySpec& a, std::size_t ta
 inline std::optional<SpecFault> pipeline_fault(const ArraySpec& a) {
   const int most = most_pipeline(a);
   if (a.pipeline <= most) return std::nullopt;
-  const std::string stage =
-      a.output == Output::binary ? "binary outputs" : "the normaliser " + std::string(name_of(a.normaliser));
+  const std::string stage = a.output == Output::modified
+                                ? "the normaliser " + std::string(name_of(a.normaliser))
+                                : std::string(name_of(a.output)) + " outputs";
   return SpecFault{"array.pipeline", std::to_string(a.pipeline),
                    (most == 0 ? "0" : from_to(0, most)) + " with " + stage};
+}
+
+/// What an output stage wants of the rest of the array.
+inline std::optional<SpecFault> output_fault(const ArraySpec& a) {
+  if (a.output != Output::projected && a.output != Output::momentum) return std::nullopt;
+  const std::string with = " with array.output = \"" + std::string(name_of(a.output)) + "\"";
+  const auto text = [](auto mode) { return '"' + std::string(name_of(mode)) + '"'; };
+  if (a.output == Output::momentum && a.schedule != Schedule::synchronous)
+    return SpecFault{"array.schedule", text(a.schedule),
+                     "\"synchronous\"" + with + ": momentum fires all neurons at once"};
+  if (a.output == Output::projected && a.schedule == Schedule::synchronous)
+    return SpecFault{"array.schedule", text(a.schedule),
+                     "\"coloured\" or \"sequential\"" + with + ": neurons that share a weight fire in turn"};
+  if (a.normaliser == Normaliser::prescaled)
+    return SpecFault{"array.normaliser", text(a.normaliser),
+                     "\"reciprocal\" or \"divider\"" + with + ": prescaled rows are not symmetric"};
+  return std::nullopt;
 }
 
 } // namespace detail
@@ -75,6 +93,7 @@ inline std::optional<SpecFault> validate(const ArraySpec& a, std::size_t taps = 
   ArraySpec copy = a;
   for (const ArrayKey& key : table(copy))
     if (!key.allowed.takes(key.place)) return SpecFault{key.name, key.value(), key.allowed.words};
+  if (auto fault = detail::output_fault(a)) return fault;
   return detail::pipeline_fault(a);
 }
 

@@ -28,6 +28,9 @@ struct Formats {
   NumberFormat link{16, 2, Rounding::rnd, Overflow::sat};
 };
 
+/// Codes of the table of m, whatever the other formats: values in [-1, 1).
+inline constexpr NumberFormat momentum_format{16, 1, Rounding::rnd, Overflow::sat};
+
 /// A class of signals: its name in keys, where its format stands, what it holds, and the integer bits that it
 /// cannot do without (two where +1 must have a code).
 struct SignalClass {
@@ -70,6 +73,10 @@ struct ArraySpec {
   int reciprocal_bits = 18;
   /// The accumulator holds every place of every sum; otherwise formats.accumulator, rounded once a cycle.
   bool exact_accumulator = true;
+  /// omega in sixteenths; looked at only with `projected`.
+  int relaxation = 29;
+  /// Entries of the table of m; looked at only with `momentum`.
+  int momentum_entries = 256;
   /// Data width of the host bus: 32, 64 or 128. Changes only the cycles that transfers hold it.
   int bus_bits = 32;
   /// Codes of half a word and less share words of the host bus. Changes only the cycles that transfers hold
@@ -80,14 +87,24 @@ struct ArraySpec {
   Formats formats;
 };
 
-/// Is N summed in the cell? Not where the host divides by it, nor where only the sign of s counts.
-inline bool sums_norm(const ArraySpec& a) {
-  return a.output == Output::modified && a.normaliser != Normaliser::prescaled;
+/// Is s divided at all, by the cell or by the host? Not where only its sign counts.
+inline bool divides(const ArraySpec& a) {
+  return a.output != Output::binary;
 }
 
-/// Is there a reciprocal of N in the cell?
+/// Is what divides s made in the cell? Not where the host divides.
+inline bool sums_norm(const ArraySpec& a) {
+  return divides(a) && a.normaliser != Normaliser::prescaled;
+}
+
+/// Is there a reciprocal of it in the cell?
 inline bool has_reciprocal(const ArraySpec& a) {
-  return a.output == Output::modified && a.normaliser == Normaliser::reciprocal;
+  return divides(a) && a.normaliser == Normaliser::reciprocal;
+}
+
+/// Do links carry Y, a point ahead of V, and is there a table of m?
+inline bool has_momentum(const ArraySpec& a) {
+  return a.output == Output::momentum;
 }
 
 /// Do neurons share elements?
@@ -103,6 +120,8 @@ inline bool shares_stage(const ArraySpec& a) {
 /// Places for registers inside normalise and output (docs/hardware/cycles.md, "Registers inside a stage").
 inline int most_pipeline(const ArraySpec& a) {
   if (a.output == Output::binary) return 0;
+  if (a.output == Output::projected) return 2;
+  if (a.output == Output::momentum) return 3;
   return a.normaliser == Normaliser::prescaled ? 3 : 4;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/memory_map.h"
+#include "rtl_model/spec/relaxation.h"
 
 namespace hopmesh::spec {
 
@@ -24,7 +25,9 @@ static_assert(normaliser_names.size() == HM_NORMALISER_DIVIDER + 1);
 
 static_assert(numbered(HM_OUTPUT_MODIFIED, Output::modified));
 static_assert(numbered(HM_OUTPUT_BINARY, Output::binary));
-static_assert(output_names.size() == HM_OUTPUT_BINARY + 1);
+static_assert(numbered(HM_OUTPUT_PROJECTED, Output::projected));
+static_assert(numbered(HM_OUTPUT_MOMENTUM, Output::momentum));
+static_assert(output_names.size() == HM_OUTPUT_MOMENTUM + 1);
 
 static_assert(numbered(HM_STAGES_EACH, Stages::each));
 static_assert(numbered(HM_STAGES_ONE, Stages::one));
@@ -61,6 +64,12 @@ inline std::uint32_t packing_word(const MemoryMap& map) {
          codes(Window::OUTPUT) << HM_SHIFT_CAP_PACKING_OUTPUT |
          codes(Window::WEIGHT) << HM_SHIFT_CAP_PACKING_WEIGHT |
          codes(Window::MOMENTUM) << HM_SHIFT_CAP_PACKING_MOMENTUM;
+}
+
+/// STOP as a host writes it.
+inline std::uint32_t stop_word(const StopRule& rule) {
+  return static_cast<std::uint32_t>(rule.by_sum) << HM_SHIFT_STOP_BY_SUM |
+         static_cast<std::uint32_t>(rule.share) << HM_SHIFT_STOP_SHARE;
 }
 
 struct RegisterWord {
@@ -100,7 +109,8 @@ inline std::vector<RegisterWord> capability_words(const ArraySpec& a, const Topo
           {HM_REG_CAP_WINDOW_BIAS, word(map[Window::BIAS].offset)},
           {HM_REG_CAP_WINDOW_OUTPUT, word(map[Window::OUTPUT].offset)},
           {HM_REG_CAP_WINDOW_WEIGHT, word(map[Window::WEIGHT].offset)},
-          {HM_REG_CAP_WINDOW_MOMENTUM, word(map[Window::MOMENTUM].offset)}};
+          {HM_REG_CAP_WINDOW_MOMENTUM, word(map[Window::MOMENTUM].offset)},
+          {HM_REG_CAP_RELAXATION, word(a.output == Output::projected ? a.relaxation : 0)}};
 }
 
 } // namespace hopmesh::spec

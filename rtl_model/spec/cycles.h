@@ -77,13 +77,14 @@ inline int next_segment(const CycleModel& m, int segment, bool over) {
 
 /// A RESET empties a line of every memory each cycle, so it takes as long as the deepest memory has lines. A
 /// row has a line for each group of its lanes. Of a folded array, the first element has the most rows, and
-/// the longest of each round; links and states have a line a neuron.
+/// the longest of each round; links and states have a line a neuron. A table of m has a line an entry.
 inline std::uint64_t reset_cycles(const ArraySpec& a, const Topology& t) {
-  if (!is_folded(a)) return std::max<std::uint64_t>(1, accumulate_cycles(a, t.most_taps()));
+  const std::uint64_t table = has_momentum(a) ? static_cast<std::uint64_t>(a.momentum_entries) : 1;
+  if (!is_folded(a)) return std::max(table, accumulate_cycles(a, t.most_taps()));
   std::uint64_t lines = 0;
   for (const Rounds& rounds : fold_of(a, t, phases_of(t, a.schedule)).rounds)
     for (const Round& round : rounds) lines += round.accumulate;
-  return std::max<std::uint64_t>(lines, t.neurons());
+  return std::max({lines, static_cast<std::uint64_t>(t.neurons()), table});
 }
 
 /// Cycles that a transfer of `words` 32-bit words holds the bus: one for the address, then the data beats.

@@ -62,7 +62,8 @@ inline int codes_a_word(const ArraySpec& a, const NumberFormat& f) {
 inline bool can_pack(ArraySpec a) {
   a.packing = true;
   const Formats& f = a.formats;
-  return codes_a_word(a, f.weight) > 1 || codes_a_word(a, f.bias) > 1 || codes_a_word(a, f.state) > 1;
+  return codes_a_word(a, f.weight) > 1 || codes_a_word(a, f.bias) > 1 || codes_a_word(a, f.state) > 1 ||
+         has_momentum(a);
 }
 
 namespace detail {
@@ -87,7 +88,8 @@ inline MemoryWindow window_of(Window w, const ArraySpec& a, const Topology& t) {
   case Window::WEIGHT:
     return {t.weight_words(), codes_a_word(a, a.formats.weight)};
   case Window::MOMENTUM:
-    break; // no output stage has a table yet
+    if (!has_momentum(a)) return {};
+    return {static_cast<std::uint64_t>(a.momentum_entries), codes_a_word(a, momentum_format)};
   }
   return {};
 }

@@ -50,7 +50,7 @@ struct NumberFormat {
   Rounding rounding = Rounding::trn_zero;
   Overflow overflow = Overflow::sat;
 
-  int fraction_bits() const { return width - integer_bits; }
+  constexpr int fraction_bits() const { return width - integer_bits; }
   std::int64_t max_raw() const { return (std::int64_t{1} << (width - 1)) - 1; }
   std::int64_t min_raw() const { return -max_raw() - (overflow == Overflow::sat_sym ? 0 : 1); }
   /// Raw code of the value 1.0; needs fraction_bits() >= 0, and integer_bits >= 2 to be representable.

@@ -15,7 +15,13 @@ struct Points {
   int ratio_up;           ///< s * 2^ratio_up / N counts in the drive's last place
   int scaled_down;        ///< from s to the drive, where rows are prescaled
   int link_down;          ///< from the state to the link
+  int step_down;          ///< from the drive to the state, where u itself is the step
 };
+
+/// What divides a product with omega, which is in sixteenths; and one with m, which has the places of
+/// momentum_format.
+inline constexpr int relaxation_down = 4;
+inline constexpr int momentum_down = momentum_format.fraction_bits();
 
 /// `built`: with the accumulator as built (built_formats).
 inline Points points_of(const Formats& built) {
@@ -32,6 +38,7 @@ inline Points points_of(const Formats& built) {
   p.ratio_up = drive + norm - sum;
   p.scaled_down = sum - drive;
   p.link_down = built.state.fraction_bits() - link;
+  p.step_down = drive - built.state.fraction_bits();
   return p;
 }
 

@@ -52,8 +52,28 @@ inline ArraySpec folded_array() {
   return a;
 }
 
+/// `descent-projected`: `descent` with over-relaxation: the energy can only fall (docs/hardware/datapath.md).
+inline ArraySpec descent_projected_array() {
+  ArraySpec a = descent_array();
+  a.name = "descent-projected";
+  a.output = Output::projected;
+  return a;
+}
+
+/// `descent-momentum`: all neurons at once, and the energy can only fall, as the table's single entry is 0
+/// with the driver's sequence.
+inline ArraySpec descent_momentum_array() {
+  ArraySpec a = descent_array();
+  a.name = "descent-momentum";
+  a.output = Output::momentum;
+  a.schedule = Schedule::synchronous;
+  a.momentum_entries = 1;
+  return a;
+}
+
 inline std::vector<ArraySpec> presets() {
-  return {guarded_array(), descent_array(), prescaled_array(), byte_array(), folded_array()};
+  return {guarded_array(), descent_array(),           prescaled_array(),       byte_array(),
+          folded_array(),  descent_projected_array(), descent_momentum_array()};
 }
 
 /// The array used where none is named; chosen by measurement, docs/decisions/0002-default-array.md.

@@ -6,16 +6,29 @@
 
 namespace hopmesh::spec {
 
+/// How the registers STOP and SUM_THRESHOLD say that a run ends (docs/hardware/datapath.md, "Rest").
+struct StopRule {
+  bool by_sum = false;     ///< by the largest |s|, not by the largest |Delta V|
+  int share = 0;           ///< at 2^-share of the first sweep's; 0: at `floor` alone
+  std::uint64_t floor = 0; ///< or at so much, a raw code of the accumulator
+
+  bool operator==(const StopRule& o) const {
+    return by_sum == o.by_sum && share == o.share && floor == o.floor;
+  }
+};
+
 /// A run, from START taken to DONE, as the registers tell it.
 struct Relaxation {
   std::uint32_t sweeps = 0;
   bool converged = false;
   std::uint32_t largest_change = 0; ///< |Delta V| of the last sweep, raw code of the state
   std::uint64_t cycles = 0;
+  /// |s| of the last sweep, of neurons that no bound holds: raw code of the accumulator; 0 without `by_sum`.
+  std::uint64_t largest_sum = 0;
 
   bool operator==(const Relaxation& o) const {
     return sweeps == o.sweeps && converged == o.converged && largest_change == o.largest_change &&
-           cycles == o.cycles;
+           cycles == o.cycles && largest_sum == o.largest_sum;
   }
 };
 

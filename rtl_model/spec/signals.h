@@ -22,27 +22,30 @@ inline constexpr Signal segment{"segment", 32}; ///< a number of Segment, of cyc
 inline constexpr Signal beat{"beat", 64};       ///< cycle of the segment
 inline constexpr Signal busy{"busy", 1};
 inline constexpr Signal sweeps{"sweeps", 64};
+inline constexpr Signal momentum{"k", 32}; ///< of a momentum array: which entry of its table the sweep takes
 } // namespace sequencer_signals
 
-/// Registers of a neuron. Of its scope `accumulator`: s and N. Of its scope `output`: u, Delta V and V.
+/// Registers of a neuron. Of its scope `accumulator`: s and N. Of its scope `output`: u, Delta V and V, and Y
+/// beside V in a momentum array.
 struct NeuronSignals {
-  Signal sum, norm, drive, change, state;
+  Signal sum, norm, drive, change, state, extrapolated;
 };
 inline constexpr const char* accumulator_scope = "accumulator";
 inline constexpr const char* output_scope = "output";
 
 /// `built`: with the accumulator as built (built_formats).
-inline NeuronSignals neuron_signals(const Formats& built) {
+inline NeuronSignals neuron_signals(const Formats& built, Output output = Output::modified) {
   return {{"s", built.accumulator.width},
           {"norm", 64},
-          {"u", built.drive.width},
-          {"delta", built.state.width + 1}, // R u may reach 2
-          {"V", built.state.width}};
+          {"u", built.drive.width + (output == Output::projected ? 1 : 0)}, // which goes up to 2
+          {"delta", built.state.width + 1},                                 // from -1 to 1 at most
+          {"V", built.state.width},
+          {"Y", built.state.width}};
 }
 
 /// Of a folded array. Of the scope of an element: the neuron whose row it adds, and its hold register, where
 /// stages are shared. Of the scope of a stage: the neuron whose u it shows. Beside them stand the registers
-/// of accumulators and output stages, and of each neuron V.
+/// of accumulators and output stages, and of each neuron V, and Y where it has one.
 inline constexpr Signal worked_signal{"neuron", 32};
 inline constexpr Signal held_signal{"held", 64};
 inline std::string element_scope(std::size_t element) {

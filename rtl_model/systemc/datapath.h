@@ -12,10 +12,15 @@ struct Datapath : spec::Points {
   const std::size_t lanes, per_source;
   const spec::Formats formats; ///< as built
   const bool exact;            ///< the accumulator has room for every place of every sum
-  const bool binary;           ///< u is the sign of s, and nothing is normalised
+  const spec::Output output;
+  const bool binary; ///< u is the sign of s, and nothing is normalised
   const spec::Normaliser normaliser;
   const int reciprocal_bits;
-  const bool narrow; ///< s * 2^ratio_up fits 63 bits: a 64-bit division will do
+  /// What multiplies the quotient of s: factor * 2^-factor_down, which is omega with `projected`, else 1.
+  const std::int64_t factor;
+  const int factor_down;
+  const int quotient_up; ///< factor * s * 2^quotient_up over what divides s counts in the drive's last place
+  const bool narrow;     ///< factor * s * 2^quotient_up fits 63 bits: a 64-bit division will do
 };
 
 } // namespace hopmesh::systemc

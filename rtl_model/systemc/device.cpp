@@ -128,6 +128,8 @@ std::uint32_t Device::read_register(std::uint32_t offset) const {
 void Device::latch(std::uint32_t offset) {
   if (offset == HM_REG_CYCLES_LO)
     registers_.set(HM_REG_CYCLES_HI, static_cast<std::uint32_t>(run_cycles_ >> 32));
+  if (offset == HM_REG_LARGEST_SUM_LO)
+    registers_.set(HM_REG_LARGEST_SUM_HI, static_cast<std::uint32_t>(largest_sum_ >> 32));
   if (offset == HM_REG_BUS_CYCLES_LO)
     registers_.set(HM_REG_BUS_CYCLES_HI, static_cast<std::uint32_t>(bus_cycles_ >> 32));
 }
@@ -167,13 +169,18 @@ bool Device::busy() const {
 
 void Device::start_run(const sc_core::sc_time& delay) {
   registers_.set(HM_REG_STATUS, HM_STATUS_BUSY);
-  cells.sequencer.begin_run(registers_.read(HM_REG_THRESHOLD), registers_.read(HM_REG_MAX_SWEEPS), delay);
+  const std::uint32_t stop = registers_.read(HM_REG_STOP);
+  const std::uint64_t high = registers_.read(HM_REG_SUM_THRESHOLD_HI);
+  const spec::StopRule rule{HM_FIELD(stop, STOP_BY_SUM) != 0, static_cast<int>(HM_FIELD(stop, STOP_SHARE)),
+                            high << 32 | registers_.read(HM_REG_SUM_THRESHOLD_LO)};
+  cells.sequencer.begin_run(registers_.read(HM_REG_THRESHOLD), registers_.read(HM_REG_MAX_SWEEPS), rule,
+                            delay);
 }
 
 // Returns how long from now on it is at work.
 sc_core::sc_time Device::reset_array(const sc_core::sc_time& delay) {
   registers_.reset();
-  bus_cycles_ = run_cycles_ = 0;
+  bus_cycles_ = run_cycles_ = largest_sum_ = 0;
   for (const Window& window : windows_)
     for (std::uint64_t k = 0; window.put && k < window.at.codes; ++k) (this->*window.put)(k, 0);
   irq_changed_.notify(sc_core::SC_ZERO_TIME);
@@ -197,6 +204,8 @@ void Device::on_run_done() {
                                     (s.aborted() ? HM_STATUS_ABORTED : 0));
   registers_.set(HM_REG_SWEEPS, static_cast<std::uint32_t>(s.sweeps()));
   registers_.set(HM_REG_LARGEST_CHANGE, static_cast<std::uint32_t>(cells.detector.largest_change()));
+  largest_sum_ = static_cast<std::uint64_t>(cells.detector.largest_sum());
+  registers_.set(HM_REG_LARGEST_SUM_LO, static_cast<std::uint32_t>(largest_sum_));
   run_cycles_ = s.run_cycles();
   registers_.set(HM_REG_CYCLES_LO, static_cast<std::uint32_t>(run_cycles_));
   raise(HM_IRQ_DONE, sc_core::SC_ZERO_TIME);

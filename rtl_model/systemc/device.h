@@ -82,15 +82,18 @@ class Device : public sc_core::sc_module {
   std::uint32_t get_bias(std::uint64_t k) const;
   std::uint32_t get_output(std::uint64_t k) const;
   std::uint32_t get_weight(std::uint64_t k) const;
+  std::uint32_t get_momentum(std::uint64_t k) const;
   void put_bias(std::uint64_t k, std::uint32_t word);
   void put_output(std::uint64_t k, std::uint32_t word);
   void put_weight(std::uint64_t k, std::uint32_t word);
+  void put_momentum(std::uint64_t k, std::uint32_t word);
   /// Neuron and tap of a word of the weight window.
   std::pair<std::size_t, std::size_t> weight_place(std::uint64_t k) const;
 
   RegisterFile registers_;
   std::array<Window, spec::window_count> windows_; ///< by spec::Window
-  std::uint64_t bus_cycles_ = 0, run_cycles_ = 0;  ///< run_cycles_: of the last run
+  std::uint64_t bus_cycles_ = 0;
+  std::uint64_t run_cycles_ = 0, largest_sum_ = 0; ///< of the last run
   bool resetting_ = false;
   sc_core::sc_event irq_changed_, reset_done_;
 };

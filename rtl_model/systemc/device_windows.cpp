@@ -27,6 +27,8 @@ void Device::set_windows() {
   at(spec::Window::OUTPUT).put = &Device::put_output;
   at(spec::Window::WEIGHT).get = &Device::get_weight;
   at(spec::Window::WEIGHT).put = &Device::put_weight;
+  at(spec::Window::MOMENTUM).get = &Device::get_momentum;
+  at(spec::Window::MOMENTUM).put = &Device::put_momentum;
 }
 
 // Codes share a word from its low end on; places behind the last code read as 0.
@@ -66,6 +68,10 @@ std::uint32_t Device::get_weight(std::uint64_t k) const {
   return static_cast<std::uint32_t>(cells.weight(neuron, tap));
 }
 
+std::uint32_t Device::get_momentum(std::uint64_t k) const {
+  return static_cast<std::uint32_t>(cells.momentum.code(k));
+}
+
 void Device::put_bias(std::uint64_t k, std::uint32_t word) {
   cells.set_bias(k, cut(word, cells.array().formats.bias));
 }
@@ -77,6 +83,10 @@ void Device::put_output(std::uint64_t k, std::uint32_t word) {
 void Device::put_weight(std::uint64_t k, std::uint32_t word) {
   const auto [neuron, tap] = weight_place(k);
   cells.set_weight(neuron, tap, cut(word, cells.array().formats.weight));
+}
+
+void Device::put_momentum(std::uint64_t k, std::uint32_t word) {
+  cells.momentum.set_code(k, cut(word, spec::momentum_format));
 }
 
 std::pair<std::size_t, std::size_t> Device::weight_place(std::uint64_t k) const {

@@ -34,12 +34,13 @@ void InputAccumulator::sum_row() {
 }
 
 void InputAccumulator::begin_norm() {
-  norm_ = std::abs(std::int64_t{at_.bias}) << path_.bias_up;
+  norm_ = path_.output == spec::Output::modified ? std::abs(std::int64_t{at_.bias}) << path_.bias_up : 0;
 }
 
 void InputAccumulator::norm_beat(std::size_t k) {
+  const bool own_only = path_.output == spec::Output::projected;
   for (std::size_t t = k * path_.lanes; t < std::min(taps(), (k + 1) * path_.lanes); ++t)
-    norm_ += std::abs(std::int64_t{at_.weights[t]}) << path_.weight_up;
+    if (!own_only || t == at_.own) norm_ += std::abs(std::int64_t{at_.weights[t]}) << path_.weight_up;
 }
 
 void InputAccumulator::norm_row() {

@@ -1,5 +1,5 @@
-// First part of a neuron: s = sum of weight * link + bias, and N = sum |weight| + |bias|
-// (docs/hardware/datapath.md).
+// First part of a neuron: s = sum of weight * link + bias, and what divides s: N = sum |weight| + |bias|, or
+// what the output stage wants instead (docs/hardware/datapath.md).
 #pragma once
 
 #include "rtl_model/systemc/datapath.h"
@@ -21,10 +21,20 @@ class InputAccumulator : public sc_core::sc_module {
   void connect(const std::int32_t* source, std::size_t row = 0) {
     rows_[row].sources[rows_[row].connected++] = source;
   }
+  /// Which tap of the row has the neuron itself as its source.
+  void set_own_tap(std::size_t tap, std::size_t row = 0) {
+    rows_[row].own = tap;
+    if (row == selected_) at_.own = tap;
+  }
   /// `bank`: places from the wires as connected to those that are read, where links have banks.
   void select(std::size_t row, std::ptrdiff_t bank = 0) {
     const Row& r = rows_[row];
-    at_ = {r.weights.data(), r.sources.data(), r.sources.data() + r.sources.size(), r.weights.size(), r.bias};
+    at_ = {r.weights.data(),
+           r.sources.data(),
+           r.sources.data() + r.sources.size(),
+           r.weights.size(),
+           r.own,
+           r.bias};
     selected_ = row;
     bank_ = bank;
   }
@@ -35,7 +45,7 @@ class InputAccumulator : public sc_core::sc_module {
   void begin_sum();             ///< s <- bias
   void sum_beat(std::size_t k); ///< adds the k-th group of lanes
   void sum_row();               ///< begin_sum and every beat
-  void begin_norm();            ///< N <- |bias|
+  void begin_norm();            ///< N <- |bias|, or 0 where no bias counts
   void norm_beat(std::size_t k);
   void norm_row();
 
@@ -57,6 +67,7 @@ class InputAccumulator : public sc_core::sc_module {
     std::vector<std::int32_t> weights;
     std::vector<const std::int32_t*> sources;
     std::size_t connected = 0; ///< sources so far
+    std::size_t own = 0;
     std::int32_t bias = 0;
   };
 
@@ -69,7 +80,7 @@ class InputAccumulator : public sc_core::sc_module {
   struct {
     const std::int32_t* weights;
     const std::int32_t *const *sources, *const *sources_end;
-    std::size_t taps;
+    std::size_t taps, own;
     std::int32_t bias;
   } at_;
   std::ptrdiff_t bank_ = 0;

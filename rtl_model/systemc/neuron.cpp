@@ -8,7 +8,7 @@ Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::s
                LinkRegister& link, std::size_t p)
     : sc_module(name), accumulator(spec::accumulator_scope, context.path, {taps}),
       output(spec::output_scope, context.path), sequencer_(context.sequencer), detector_(context.detector),
-      extremes_(context.extremes), link_(link), p_(p),
+      momentum_(context.momentum), extremes_(context.extremes), link_(link), p_(p),
       segment_(spec::Segment::first_phase + static_cast<int>(phase)),
       phase_cycles_(context.sequencer.phase_cycles(phase)), drive_cycles_(spec::drive_cycles(context.array)),
       change_cycles_(spec::change_cycles(context.array)) {
@@ -20,6 +20,11 @@ Neuron::Neuron(sc_core::sc_module_name name, const ArrayContext& context, std::s
   dont_initialize();
   SC_METHOD(on_clock);
   sensitive << sequencer_.clock().posedge_event();
+  dont_initialize();
+  accumulator.set_own_tap(p);
+  if (!momentum_.exists()) return;
+  SC_METHOD(on_settled);
+  sensitive << sequencer_.settled();
   dont_initialize();
 }
 
@@ -37,8 +42,14 @@ void Neuron::on_prepare_done() {
 void Neuron::on_phase_done() {
   accumulator.sum_row();
   normalise();
-  output.bias_by_r(output.drive_raw());
+  output.find_change(output.drive_raw());
   publish();
+}
+
+// Nobody reads links while this happens: a check, or the start of a run.
+void Neuron::on_settled() {
+  output.settle();
+  link_.load(p_, output.link_raw());
 }
 
 void Neuron::normalise() {
@@ -47,7 +58,9 @@ void Neuron::normalise() {
 }
 
 void Neuron::publish() {
-  detector_.report(output.publish());
+  const std::int64_t sum = accumulator.sum_raw();
+  const bool held = detector_.compares_sums() && output.is_held(sum);
+  detector_.report(sum, output.publish(0, momentum_.now()), held);
   link_.write(p_, output.link_raw());
 }
 
@@ -70,7 +83,7 @@ void Neuron::phase_beat(std::uint64_t beat) {
   if (beat == 0) accumulator.begin_sum();
   if (beat < beats) accumulator.sum_beat(beat);
   if (beat + 1 == beats + drive_cycles_) normalise();
-  if (beat + 1 == beats + change_cycles_) output.bias_by_r(output.drive_raw());
+  if (beat + 1 == beats + change_cycles_) output.find_change(output.drive_raw());
   if (beat + 1 == phase_cycles_) publish();
 }
 

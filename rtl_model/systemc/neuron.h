@@ -25,6 +25,7 @@ class Neuron : public sc_core::sc_module {
  private:
   void on_prepare_done();
   void on_phase_done();
+  void on_settled();
   void on_clock();
   void prepare_beat(std::uint64_t beat);
   void phase_beat(std::uint64_t beat);
@@ -33,6 +34,7 @@ class Neuron : public sc_core::sc_module {
 
   Sequencer& sequencer_;
   ConvergenceDetector& detector_;
+  const MomentumTable& momentum_;
   spec::Extremes& extremes_;
   LinkRegister& link_;
   const std::size_t p_;

@@ -17,6 +17,7 @@ struct ArrayContext {
   const Datapath path;
   Sequencer& sequencer;
   ConvergenceDetector& detector;
+  MomentumTable& momentum;
   spec::Extremes& extremes;
 };
 
@@ -36,7 +37,7 @@ class NeuronArray : public sc_core::sc_module {
   virtual std::int32_t bias(std::size_t neuron) const = 0;
   virtual void set_bias(std::size_t neuron, std::int32_t raw) = 0;
   virtual std::int64_t state_raw(std::size_t neuron) const = 0;
-  virtual std::int32_t link_raw(std::size_t neuron) const = 0; ///< V as neighbours see it
+  virtual std::int32_t link_raw(std::size_t neuron) const = 0; ///< V, or Y, as neighbours see it
   /// Loads V from the host; shows on the link at once.
   virtual void load(std::size_t neuron, std::int32_t raw) = 0;
   /// Registers of the array, and what these cells hold.
@@ -51,6 +52,7 @@ class NeuronArray : public sc_core::sc_module {
 
  public:
   ConvergenceDetector detector;
+  MomentumTable momentum;
   spec::Extremes extremes;
   Sequencer sequencer;
 

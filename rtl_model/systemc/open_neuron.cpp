@@ -17,7 +17,9 @@ void OpenNeuron::load(const spec::FiringInputs& in) {
     wires_[t] = there ? in.link[t] : 0;
   }
   accumulator_.set_bias(in.bias);
+  accumulator_.set_own_tap(in.own_tap);
   output_.load(in.state);
+  output_.extrapolate(in.extrapolated);
 }
 
 spec::FiringSteps OpenNeuron::fire(const spec::FiringInputs& in) {
@@ -32,8 +34,8 @@ spec::FiringSteps OpenNeuron::fire(const spec::FiringInputs& in) {
     steps.sum.push_back(accumulator_.sum_raw());
   }
   output_.normalise(accumulator_.sum_raw());
-  output_.bias_by_r(output_.drive_raw());
-  output_.publish();
+  output_.find_change(output_.drive_raw());
+  output_.publish(0, in.momentum);
   steps.norm = accumulator_.norm_raw();
   const bool inverted = steps.norm != 0 && path_.normaliser == spec::Normaliser::reciprocal;
   if (inverted) steps.reciprocal = output_.reciprocal_raw(), steps.places = output_.reciprocal_places();
@@ -44,6 +46,8 @@ spec::FiringSteps OpenNeuron::fire(const spec::FiringInputs& in) {
   steps.change = output_.change_raw();
   steps.state = static_cast<std::int32_t>(output_.state_raw());
   steps.link = output_.link_raw();
+  if (path_.output == spec::Output::momentum)
+    steps.extrapolated = static_cast<std::int32_t>(output_.extrapolated_raw());
   return steps;
 }
 

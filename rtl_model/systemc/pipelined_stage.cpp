@@ -14,6 +14,18 @@ PipelinedStage::PipelinedStage(sc_core::sc_module_name name, const ArrayContext&
   SC_METHOD(fire_all);
   sensitive << all_put_;
   dont_initialize();
+  if (!context.momentum.exists()) return;
+  SC_METHOD(settle_all);
+  sensitive << context.sequencer.settled();
+  dont_initialize();
+}
+
+// In the bank that is read: nobody reads it while this happens.
+void PipelinedStage::settle_all() {
+  for (std::size_t place = 0; place < neurons_.size(); ++place) {
+    output.settle(place);
+    links_.load(neurons_[place], output.link_raw(place));
+  }
 }
 
 // The oldest first: it leaves a register before the next one writes it.
@@ -38,16 +50,16 @@ bool PipelinedStage::pass(Passenger& passenger) {
     normalise(passenger.place, passenger.value);
     passenger.drive = output.drive_raw();
   }
-  if (passenger.passed == change_cycles_) output.bias_by_r(passenger.drive, passenger.place);
+  if (passenger.passed == change_cycles_) output.find_change(passenger.drive, passenger.place);
   if (passenger.passed < stage_cycles_) return false;
-  publish(passenger.place);
+  publish(passenger.place, passenger.value);
   return true;
 }
 
 void PipelinedStage::fire(std::size_t place, std::int64_t sum_raw) {
   normalise(place, sum_raw);
-  output.bias_by_r(output.drive_raw(), place);
-  publish(place);
+  output.find_change(output.drive_raw(), place);
+  publish(place, sum_raw);
 }
 
 void PipelinedStage::put_sum(std::size_t place, std::int64_t sum_raw) {
@@ -70,8 +82,9 @@ void PipelinedStage::normalise(std::size_t place, std::int64_t sum_raw) {
   shown_ = neurons_[place];
 }
 
-void PipelinedStage::publish(std::size_t place) {
-  context_.detector.report(output.publish(place));
+void PipelinedStage::publish(std::size_t place, std::int64_t sum_raw) {
+  const bool held = context_.detector.compares_sums() && output.is_held(sum_raw, place);
+  context_.detector.report(sum_raw, output.publish(place, context_.momentum.now()), held);
   links_.write(neurons_[place], output.link_raw(place));
 }
 

@@ -50,7 +50,8 @@ class PipelinedStage : public sc_core::sc_module {
   /// True where it has come out.
   bool pass(Passenger& passenger);
   void normalise(std::size_t place, std::int64_t sum_raw);
-  void publish(std::size_t place);
+  void publish(std::size_t place, std::int64_t sum_raw);
+  void settle_all();
 
   const ArrayContext& context_;
   LinkMemory& links_;

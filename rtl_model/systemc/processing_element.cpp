@@ -40,6 +40,9 @@ ProcessingElement::ProcessingElement(sc_core::sc_module_name name, const FoldCon
     own_ = std::make_unique<PipelinedStage>(spec::stage_scope, context.array, context.links, rows.neurons);
   connect_links();
   wake_by_phase();
+  const auto per_cell = static_cast<std::uint32_t>(context.array.topology.neurons_per_cell);
+  for (std::size_t row = 0; row < rows.neurons.size(); ++row)
+    accumulator.set_own_tap(rows.neurons[row] % per_cell, row);
 }
 
 void ProcessingElement::connect_links() {

@@ -8,8 +8,8 @@ using sc_core::sc_time;
 using spec::Segment;
 
 Sequencer::Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_time period,
-                     ConvergenceDetector& detector)
-    : sc_module(name), cycles_(cycles), period_(period), detector_(detector),
+                     ConvergenceDetector& detector, MomentumTable& momentum)
+    : sc_module(name), cycles_(cycles), period_(period), detector_(detector), momentum_(momentum),
       phase_done_(cycles.phase.size()), clock_("clock", false), segment_("segment", Segment::idle),
       running_("running", Segment::idle), beat_("beat", 0) {
   SC_METHOD(on_segment_end);
@@ -23,8 +23,11 @@ Sequencer::Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycle
   dont_initialize();
 }
 
-void Sequencer::begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_time delay) {
+void Sequencer::begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, const spec::StopRule& rule,
+                          sc_time delay) {
   threshold_ = threshold;
+  rule_ = rule;
+  detector_.begin_run(rule.by_sum);
   max_sweeps_ = std::max<std::uint64_t>(max_sweeps, 1);
   busy_ = true;
   converged_ = aborted_ = false;
@@ -53,9 +56,26 @@ void Sequencer::leave_segment() {
   const std::uint64_t length = spec::segment_cycles(cycles_, at_);
   total_cycles_ += length;
   run_cycles_ += length;
-  if (at_ != Segment::check) return;
+  if (at_ == Segment::check) leave_check();
+  if (at_ != Segment::start || !momentum_.exists()) return;
+  momentum_.begin_run();
+  settled_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void Sequencer::leave_check() {
   sweeps_ += 1;
-  converged_ = static_cast<std::uint64_t>(detector_.largest_change()) <= threshold_;
+  if (sweeps_ == 1) first_sum_ = static_cast<std::uint64_t>(detector_.largest_sum());
+  converged_ = at_rest();
+  if (!momentum_.exists()) return;
+  const bool restart = detector_.way() < 0;
+  momentum_.end_sweep(restart);
+  if (restart) settled_.notify(sc_core::SC_ZERO_TIME);
+}
+
+bool Sequencer::at_rest() const {
+  if (!rule_.by_sum) return static_cast<std::uint64_t>(detector_.largest_change()) <= threshold_;
+  const std::uint64_t share = rule_.share > 0 ? first_sum_ >> rule_.share : 0;
+  return static_cast<std::uint64_t>(detector_.largest_sum()) <= std::max(rule_.floor, share);
 }
 
 void Sequencer::enter(int segment) {
@@ -119,6 +139,7 @@ void Sequencer::trace(sc_core::sc_trace_file* file) const {
   sc_core::sc_trace(file, beat_, traced_name(*this, signals::beat));
   sc_core::sc_trace(file, busy_, traced_name(*this, signals::busy));
   sc_core::sc_trace(file, sweeps_, traced_name(*this, signals::sweeps));
+  momentum_.trace_entry(file, *this);
 }
 
 } // namespace hopmesh::systemc

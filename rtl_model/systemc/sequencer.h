@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rtl_model/spec/cycles.h"
+#include "rtl_model/spec/relaxation.h"
 #include "rtl_model/systemc/convergence_detector.h"
 
 #include <systemc>
@@ -26,11 +27,13 @@ class Sequencer : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Sequencer);
   Sequencer(sc_core::sc_module_name name, const spec::CycleModel& cycles, sc_core::sc_time period,
-            ConvergenceDetector& detector);
+            ConvergenceDetector& detector, MomentumTable& momentum);
 
   const sc_core::sc_event& prepare_done() const { return prepare_done_; }
   const sc_core::sc_event& phase_done(std::size_t k) const { return phase_done_[k]; }
   const sc_core::sc_event& run_done() const { return run_done_; }
+  /// Of a momentum array: Y begins at V again, for a run or after a sweep that went the wrong way.
+  const sc_core::sc_event& settled() const { return settled_; }
   const sc_core::sc_signal<bool>& clock() const { return clock_; }
   std::uint64_t phase_cycles(std::size_t k) const { return cycles_.phase[k]; }
   std::uint64_t prepare_cycles() const { return cycles_.prepare; }
@@ -40,7 +43,8 @@ class Sequencer : public sc_core::sc_module {
   std::uint64_t beat() const { return beat_.read(); }
 
   /// Begins a run on the first clock edge not before now + delay. Only when idle.
-  void begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, sc_core::sc_time delay);
+  void begin_run(std::uint64_t threshold, std::uint64_t max_sweeps, const spec::StopRule& rule,
+                 sc_core::sc_time delay);
   bool busy() const { return busy_; }
   /// Lets the run at hand end with its next check.
   void abort() { aborted_ = true; }
@@ -66,6 +70,8 @@ class Sequencer : public sc_core::sc_module {
   void toggle_clock();
   void enter(int segment);
   void leave_segment();
+  void leave_check();
+  bool at_rest() const;
   void finish();
   bool over() const;
   bool walks(std::uint64_t cycles) const;
@@ -73,8 +79,9 @@ class Sequencer : public sc_core::sc_module {
   const spec::CycleModel cycles_;
   const sc_core::sc_time period_;
   ConvergenceDetector& detector_;
+  MomentumTable& momentum_;
   std::vector<sc_core::sc_event> phase_done_;
-  sc_core::sc_event prepare_done_, run_done_, segment_end_, clock_edge_;
+  sc_core::sc_event prepare_done_, run_done_, settled_, segment_end_, clock_edge_;
   sc_core::sc_signal<bool> clock_;
   sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> segment_; // by one process or the other, never both
   sc_core::sc_signal<int, sc_core::SC_MANY_WRITERS> running_;
@@ -84,6 +91,8 @@ class Sequencer : public sc_core::sc_module {
       spec::Segment::idle; ///< the segment that runs now; segment_ shows it while clocks run, running_ always
   std::uint64_t beats_left_ = 0;
   bool busy_ = false, converged_ = false, aborted_ = false, clocked_ = false;
+  spec::StopRule rule_;
+  std::uint64_t first_sum_ = 0; ///< the largest |s| of the run's first sweep
   std::uint64_t threshold_ = 0, max_sweeps_ = 1, sweeps_ = 0, run_cycles_ = 0, total_cycles_ = 0;
 };
 

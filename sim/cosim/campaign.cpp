@@ -54,6 +54,7 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
     array = random_array(dice, topology.most_taps());
   CampaignCase made{random_codes(dice, array, topology), every_sweep};
   fold_at_random(dice, made.job.array);
+  vary_stage(dice, made.job);
   return made;
 }
 

@@ -122,7 +122,7 @@ class Round {
     const levels::StepRow &a = rows_[fixed_[0]], &b = rows_[fixed_[k]];
     const bool same_codes = of(0).array->rest_raw() == of(k).array->rest_raw();
     const Arrays two{arrays_[0], arrays_[k]};
-    const std::string memory = memory_difference(two);
+    const std::string memory = memory_difference(two, job_);
     if (same_codes && a.sweeps == b.sweeps && a.cycles == b.cycles && memory.empty()) return std::nullopt;
     Difference d = between(k);
     d.memory = memory;

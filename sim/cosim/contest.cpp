@@ -12,13 +12,14 @@ Answer ask(const BusArray& array, const ArrayJob& job, bool every_sweep) {
   a.capabilities = array.capabilities();
   load(array, job);
   a.weight = array.weights(), a.bias = array.biases(), a.start = array.outputs();
-  a.end = array.run(job.threshold, job.max_sweeps);
+  if (!job.momentum.empty()) a.momentum = array.momentum(job.momentum.size());
+  a.end = run_whole(array, job);
   a.output = array.outputs();
   a.bus_cycles = array.bus_cycles();
   if (!every_sweep) return a;
-  array.put_outputs(job.start);
+  SweepBySweep sweeps(array, job);
   for (std::uint32_t sweep = 0; sweep < a.end.sweeps; ++sweep) {
-    a.sweeps.push_back(array.one_sweep());
+    a.sweeps.push_back(sweeps.next());
     a.outputs.push_back(array.outputs());
   }
   return a;
@@ -27,8 +28,8 @@ Answer ask(const BusArray& array, const ArrayJob& job, bool every_sweep) {
 namespace {
 
 std::string text_of(const spec::Relaxation& e) {
-  return fmt::format("{} sweeps, {}, largest change {}, {} cycles", e.sweeps,
-                     e.converged ? "converged" : "not converged", e.largest_change, e.cycles);
+  return fmt::format("{} sweeps, {}, largest change {}, largest sum {}, {} cycles", e.sweeps,
+                     e.converged ? "converged" : "not converged", e.largest_change, e.largest_sum, e.cycles);
 }
 
 template <typename T>
@@ -58,8 +59,8 @@ std::string unequal(const Answer& a, const Answer& b, const ArrayJob& job) {
   for (const std::string& text :
        {unequal_words("capability register", a.capabilities, b.capabilities),
         unequal_words("weight word", a.weight, b.weight), unequal_words("bias word", a.bias, b.bias),
-        unequal_words("start word", a.start, b.start), unequal_sweeps(a, b, job),
-        unequal_words("output of neuron", a.output, b.output)})
+        unequal_words("start word", a.start, b.start), unequal_words("momentum word", a.momentum, b.momentum),
+        unequal_sweeps(a, b, job), unequal_words("output of neuron", a.output, b.output)})
     if (!text.empty()) return text;
   if (!(a.end == b.end)) return text_of(a.end) + " and " + text_of(b.end);
   if (a.bus_cycles != b.bus_cycles) return fmt::format("bus cycles: {} and {}", a.bus_cycles, b.bus_cycles);

@@ -13,7 +13,7 @@ using Ways = std::vector<Way>;
 /// All that a host sees of a job: capabilities, memories read back, the run, and each sweep of it.
 struct Answer {
   std::vector<std::uint32_t> capabilities;
-  Codes weight, bias, start, output;
+  Codes weight, bias, start, momentum, output;
   spec::Relaxation end;
   std::uint64_t bus_cycles = 0;
   std::vector<Codes> outputs; ///< after every sweep; empty unless asked for

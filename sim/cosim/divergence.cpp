@@ -67,6 +67,7 @@ Divergence locate(const ArrayJob& job, std::uint64_t sweep, const Codes& before,
       d.neuron = neuron;
       d.raw[0] = a[neuron], d.raw[1] = b[neuron];
       d.before_raw = before[neuron], d.bias_raw = job.bias[neuron];
+      d.ahead = spec::has_momentum(job.array);
       d.taps = taps_of(job, neuron, in_sweep(timing.phases, k, before, a));
       return d;
     }

@@ -40,7 +40,13 @@ struct Divergence {
   std::int32_t raw[2] = {0, 0}; ///< V after it, in either answer
   std::int32_t before_raw = 0, bias_raw = 0;
   std::vector<Tap> taps;
+  bool ahead = false; ///< links carry Y, which stands ahead of V and in no register
 };
+
+/// Behind the words about inputs, for people.
+inline const char* ahead_note(bool ahead) {
+  return ahead ? " (V; links carried Y, which lies ahead of it)" : "";
+}
 
 /// Of the neurons whose outputs differ after a sweep that began from `before`, the one that fired first.
 Divergence locate(const ArrayJob& job, std::uint64_t sweep, const Codes& before, const Codes& a,

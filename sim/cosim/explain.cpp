@@ -14,7 +14,7 @@ FirstDifference in_mesh(const Divergence& d, const levels::BuiltMesh& mesh, cons
   f.cell = d.neuron / n, f.component = d.neuron % n;
   f.node = mesh.node_of_cell(f.cell);
   f.raw[0] = d.raw[0], f.raw[1] = d.raw[1];
-  f.before_raw = d.before_raw, f.bias_raw = d.bias_raw;
+  f.before_raw = d.before_raw, f.bias_raw = d.bias_raw, f.ahead = d.ahead;
   for (const Tap& tap : d.taps)
     f.inputs.push_back({mesh.node_of_cell(tap.cell), tap.component, tap.weight_raw, tap.output_raw});
   return f;
@@ -32,7 +32,7 @@ std::string text_of(const FirstDifference& w, const std::string& a, const std::s
   std::string text =
       fmt::format("  sweep {}, cycle {} of the run, node {}, neuron {}: V {} -> {} ({}) or {} ({})\n",
                   w.sweep, w.cycle, w.node, w.component, w.before_raw, w.raw[0], a, w.raw[1], b);
-  text += fmt::format("  its inputs one update earlier, bias {}:\n", w.bias_raw);
+  text += fmt::format("  its inputs one update earlier, bias {}{}:\n", w.bias_raw, ahead_note(w.ahead));
   for (const NeuronInput& in : w.inputs)
     text += fmt::format("    node {:>6} neuron {}  weight {:>11}  V {:>11}\n", in.node, in.component,
                         in.weight_raw, in.output_raw);

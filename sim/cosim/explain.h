@@ -21,6 +21,7 @@ struct FirstDifference {
   std::int32_t raw[2] = {0, 0}; ///< V after it, at either level
   std::int32_t before_raw = 0, bias_raw = 0;
   std::vector<NeuronInput> inputs;
+  bool ahead = false; ///< the inputs saw Y, ahead of the V that is told
 };
 
 /// The divergence in the mesh's words: nodes for cells.

@@ -29,8 +29,8 @@ namespace {
 void comment_answers(VectorWriter& file, const Way& way, const ArrayJob& job, levels::ArrayPort* array) {
   if (!array) return;
   const Answer a = ask(BusArray(array->bus(), job.topology), job, true);
-  file.comment(fmt::format("{}: end {} {:d} {} {}", way.name, a.end.sweeps, a.end.converged,
-                           a.end.largest_change, a.end.cycles));
+  file.comment(fmt::format("{}: end {} {:d} {} {} {}", way.name, a.end.sweeps, a.end.converged,
+                           a.end.largest_change, a.end.largest_sum, a.end.cycles));
   for (std::size_t k = 0; k < a.outputs.size(); ++k)
     file.comment(fmt::format("{}: after sweep {} {}", way.name, k + 1, fmt::join(a.outputs[k], " ")));
 }

@@ -8,10 +8,10 @@ namespace hopmesh::cosim {
 namespace {
 
 // What every array made of one more sweep; true while all agree.
-bool one_sweep(const Arrays& arrays, const ArrayJob& job, Lockstep& l) {
+bool one_sweep(const Arrays& arrays, std::vector<SweepBySweep>& walks, const ArrayJob& job, Lockstep& l) {
   const Codes before = l.outputs[0];
   for (std::size_t k = 0; k < arrays.size(); ++k) {
-    arrays[k].one_sweep();
+    walks[k].next();
     l.outputs[k] = arrays[k].outputs();
     if (l.outputs[k] == l.outputs[0] || l.where) continue;
     l.other = k;
@@ -30,21 +30,23 @@ std::string first_unequal(const char* window, const Codes& a, const Codes& b) {
 
 Lockstep run_in_lockstep(const Arrays& arrays, const ArrayJob& job, std::uint32_t sweeps) {
   Lockstep l;
+  std::vector<SweepBySweep> walks;
   for (const BusArray& array : arrays) {
-    array.put_outputs(job.start);
+    walks.emplace_back(array, job);
     l.outputs.push_back(array.outputs());
   }
-  while (l.sweeps < sweeps && one_sweep(arrays, job, l)) l.sweeps += 1;
+  while (l.sweeps < sweeps && one_sweep(arrays, walks, job, l)) l.sweeps += 1;
   return l;
 }
 
 std::optional<Divergence> part_from_start(const Arrays& two, const ArrayJob& job, std::uint32_t sweeps) {
   Codes before = job.start;
+  std::vector<SweepBySweep> walks;
+  for (const BusArray& array : two) walks.emplace_back(array, job, SweepBySweep::Each::from_the_start);
   for (std::uint32_t sweep = 1; sweep <= sweeps; ++sweep) {
     Codes after[2];
     for (std::size_t k = 0; k < 2; ++k) {
-      two[k].put_outputs(job.start);
-      two[k].run(job.threshold, sweep);
+      walks[k].next();
       after[k] = two[k].outputs();
     }
     if (after[0] != after[1]) return locate(job, sweep, before, after[0], after[1]);
@@ -53,9 +55,13 @@ std::optional<Divergence> part_from_start(const Arrays& two, const ArrayJob& job
   return std::nullopt;
 }
 
-std::string memory_difference(const Arrays& two) {
-  const std::string weights = first_unequal("WEIGHT", two[0].weights(), two[1].weights());
-  return weights.empty() ? first_unequal("BIAS", two[0].biases(), two[1].biases()) : weights;
+std::string memory_difference(const Arrays& two, const ArrayJob& job) {
+  std::string text = first_unequal("WEIGHT", two[0].weights(), two[1].weights());
+  if (text.empty()) text = first_unequal("BIAS", two[0].biases(), two[1].biases());
+  const std::size_t entries = job.momentum.size();
+  if (text.empty() && entries > 0)
+    text = first_unequal("MOMENTUM", two[0].momentum(entries), two[1].momentum(entries));
+  return text;
 }
 
 } // namespace hopmesh::cosim

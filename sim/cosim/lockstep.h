@@ -16,15 +16,16 @@ struct Lockstep {
   std::vector<Codes> outputs;      ///< of each array, after the last sweep done
 };
 
-/// `sweeps` runs of one sweep each from the job's start, on memories as they stand: between two sweeps an
-/// array has no state but V, so what it does here is what it does in one run. The arrays must be idle.
+/// `sweeps` sweeps one by one from the job's start (SweepBySweep), on memories as they stand. The arrays must
+/// be idle.
 Lockstep run_in_lockstep(const Arrays& arrays, const ArrayJob& job, std::uint32_t sweeps);
 
 /// Where two arrays part whose fault depends on how long a run has lasted: the job from its start,
 /// one sweep further each time. Quadratic.
 std::optional<Divergence> part_from_start(const Arrays& two, const ArrayJob& job, std::uint32_t sweeps);
 
-/// "WEIGHT word 7: 12 and 13", where the memories of two arrays first differ; "" where they are equal.
-std::string memory_difference(const Arrays& two);
+/// "WEIGHT word 7: 12 and 13", where the memories of two arrays of a job first differ; "" where they are
+/// equal.
+std::string memory_difference(const Arrays& two, const ArrayJob& job);
 
 } // namespace hopmesh::cosim

@@ -4,6 +4,7 @@
 #include "rtl_model/spec/array_keys.h"
 #include "rtl_model/spec/array_rules.h"
 
+#include <cmath>
 #include <set>
 
 namespace hopmesh::cosim {
@@ -180,6 +181,56 @@ void fold_at_random(Dice& dice, spec::ArraySpec& a) {
   a.stages = dice.mode<spec::Stages>(spec::stages_names);
 }
 
+spec::ArraySpec stepping_array(Dice& dice, spec::ArraySpec a, std::size_t taps) {
+  const spec::ArraySpec before = a;
+  a.output = dice.one_in(2) ? spec::Output::projected : spec::Output::momentum;
+  a.schedule = a.output == spec::Output::momentum ? spec::Schedule::synchronous
+               : dice.one_in(2)                   ? spec::Schedule::coloured
+                                                  : spec::Schedule::sequential;
+  a.normaliser = dice.one_in(2) ? spec::Normaliser::reciprocal : spec::Normaliser::divider;
+  a.pipeline = dice.one_in(2) ? 0 : static_cast<int>(dice.between(0, spec::most_pipeline(a)));
+  if (dice.one_in(2)) a.relaxation = static_cast<int>(dice.between(1, spec::most_relaxation));
+  a.momentum_entries = static_cast<int>(dice.one_in(8) ? dice.between(1, 300) : dice.between(1, 6));
+  return spec::validate(a, taps) ? before : a;
+}
+
+namespace {
+
+/// The sequence of docs/method/theory.md, a constant, anything at all, or anything not below zero.
+std::vector<std::int32_t> random_table(Dice& dice, std::size_t entries) {
+  const std::uint64_t character = dice.below(4);
+  const std::int64_t constant = dice.code(spec::momentum_format), most = spec::momentum_format.max_raw();
+  std::vector<std::int32_t> table;
+  for (double t = 1; table.size() < entries;) {
+    const double next = (1 + std::sqrt(1 + 4 * t * t)) / 2;
+    const auto sequence = static_cast<std::int64_t>(std::floor((t - 1) / next * 0x1p15 + 0.5));
+    t = next;
+    const std::int64_t code = character == 0   ? std::min(sequence, most)
+                              : character == 1 ? constant
+                              : character == 2 ? dice.code(spec::momentum_format)
+                                               : dice.between(0, most);
+    table.push_back(static_cast<std::int32_t>(code));
+  }
+  return table;
+}
+
+spec::StopRule random_rule(Dice& dice) {
+  spec::StopRule rule;
+  rule.by_sum = dice.one_in(2);
+  if (!dice.one_in(3))
+    rule.share = static_cast<int>(dice.one_in(4) ? dice.between(1, most_share) : dice.between(1, 6));
+  if (dice.one_in(2)) rule.floor = dice.bits() >> dice.between(1, 63);
+  return rule;
+}
+
+} // namespace
+
+void vary_stage(Dice& dice, ArrayJob& job) {
+  if (dice.one_in(2)) job.array = stepping_array(dice, job.array, job.topology.most_taps());
+  job.momentum = random_table(dice, table_entries(job.array));
+  job.rule = random_rule(dice);
+}
+
 ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology) {
   ArrayJob job;
   job.array = array;
@@ -210,6 +261,7 @@ ArrayJob random_job(std::uint64_t seed, std::size_t most_cells) {
   const spec::Topology topology = random_topology(dice, most_cells);
   ArrayJob job = random_codes(dice, random_array(dice, topology.most_taps()), topology);
   fold_at_random(dice, job.array); // last, so that a seed makes the network that it made before arrays folded
+  vary_stage(dice, job);           // and before they had such stages
   return job;
 }
 
@@ -219,8 +271,10 @@ std::string describe(const ArrayJob& job) {
       std::to_string(job.topology.cells()) + " cells of " + std::to_string(job.topology.neurons_per_cell);
   for (const spec::ArrayKey& key : spec::answer_keys(spec::array_keys(array)))
     text += ", " + key.word() + " " + key.value();
-  return text + ", threshold " + std::to_string(job.threshold) + ", max_sweeps " +
-         std::to_string(job.max_sweeps);
+  text += ", threshold " + std::to_string(job.threshold) + ", max_sweeps " + std::to_string(job.max_sweeps);
+  if (!job.rule.by_sum) return text;
+  return text + ", stop by sum, share " + std::to_string(job.rule.share) + ", floor " +
+         std::to_string(job.rule.floor);
 }
 
 } // namespace hopmesh::cosim

@@ -51,6 +51,12 @@ spec::ArraySpec random_array(Dice& dice, std::size_t taps);
 /// Folds some of all arrays, and gives some a pipeline.
 void fold_at_random(Dice& dice, spec::ArraySpec& array);
 
+/// The array with an output stage beyond the paper's, and what that wants: a schedule, a normaliser; or as it
+/// was, where no such array can be built for rows of `taps` inputs.
+spec::ArraySpec stepping_array(Dice& dice, spec::ArraySpec array, std::size_t taps);
+/// Gives some of all jobs such a stage, and its table; and all of them a rule to stop by.
+void vary_stage(Dice& dice, ArrayJob& job);
+
 /// Everything for one run, on this array and mesh.
 ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology);
 ArrayJob random_job(std::uint64_t seed, std::size_t most_cells = 60);

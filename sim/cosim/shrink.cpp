@@ -28,7 +28,7 @@ std::vector<std::uint32_t> sources_of(const spec::Topology& t, std::uint32_t cel
 ArrayJob rebuilt(const ArrayJob& job, const Kept& kept) {
   const spec::Topology& t = job.topology;
   const int per_cell = t.neurons_per_cell;
-  ArrayJob small{job.array, {}, {}, {}, {}, job.threshold, job.max_sweeps};
+  ArrayJob small{job.array, {}, {}, {}, {}, job.threshold, job.max_sweeps, job.rule, job.momentum};
   std::vector<std::uint32_t> number(t.cells());
   std::uint32_t cells = 0;
   for (std::uint32_t c = 0; c < t.cells(); ++c) number[c] = kept.cell(c) ? cells++ : UINT32_MAX;
@@ -87,12 +87,15 @@ class Shrinker {
     bool smaller = true;
     while (smaller && trials_left_ > 0) {
       smaller = fewer_sweeps();
+      smaller |= plainer_rule();
+      smaller |= fewer_entries();
       smaller |= fewer_cells();
       smaller |= fewer_components();
       smaller |= fewer_links();
       smaller |= smaller_codes(&ArrayJob::weight);
       smaller |= smaller_codes(&ArrayJob::bias);
       smaller |= smaller_codes(&ArrayJob::start);
+      smaller |= smaller_codes(&ArrayJob::momentum);
       smaller |= plainer_array();
     }
     return std::move(job_);
@@ -120,6 +123,25 @@ class Shrinker {
       if (n > 0 && n < job_.max_sweeps) any |= try_change([n](ArrayJob& j) { j.max_sweeps = n; });
     while (job_.max_sweeps > 1 && try_change([](ArrayJob& j) { j.max_sweeps -= 1; })) any = true;
     if (job_.max_sweeps == 0) any |= try_change([](ArrayJob& j) { j.max_sweeps = 1; });
+    return any;
+  }
+
+  bool plainer_rule() {
+    bool any = false;
+    if (job_.rule.by_sum) any |= try_change([](ArrayJob& j) { j.rule.by_sum = false; });
+    if (job_.rule.share > 0) any |= try_change([](ArrayJob& j) { j.rule.share = 0; });
+    if (job_.rule.floor > 0) any |= try_change([](ArrayJob& j) { j.rule.floor = 0; });
+    while (job_.rule.floor / 2 > 0 && try_change([](ArrayJob& j) { j.rule.floor /= 2; })) any = true;
+    return any;
+  }
+
+  bool fewer_entries() {
+    bool any = false;
+    while (job_.momentum.size() > 1 && try_change([](ArrayJob& j) {
+             j.array.momentum_entries -= 1;
+             j.momentum.pop_back();
+           }))
+      any = true;
     return any;
   }
 
@@ -182,8 +204,9 @@ class Shrinker {
       for (bool overflow : {false, true}) {
         ArrayJob trial = job_;
         const spec::ArrayKey key = spec::array_keys(trial.array)[row];
-        if (key.vectors_line > 0 && std::visit(Plain{key.plainest, overflow}, key.place))
-          any |= accept(std::move(trial));
+        if (key.vectors_line == 0 || !std::visit(Plain{key.plainest, overflow}, key.place)) continue;
+        trial.momentum.resize(table_entries(trial.array));
+        any |= accept(std::move(trial));
       }
     return any;
   }

@@ -11,7 +11,7 @@
 
 namespace hopmesh::cosim {
 
-inline constexpr const char* vectors_header = "hopmesh-vectors 3";
+inline constexpr const char* vectors_header = "hopmesh-vectors 4";
 
 struct VectorCase {
   std::string name; ///< one line
@@ -60,6 +60,8 @@ class VectorReader {
   void skip_answers();
   void read_links(spec::Topology& topology);
   void check_links(const spec::Topology& topology, const std::vector<int>& lines) const;
+  void read_stop(ArrayJob& job);
+  void read_momentum(ArrayJob& job);
   void read_neurons(ArrayJob& job);
   void read_phases(const ArrayJob& job);
 

@@ -8,12 +8,17 @@ namespace hopmesh::cosim {
 
 using input::in_quotes;
 
+namespace {
+
+constexpr const char* end_shape = "end SWEEPS CONVERGED LARGEST_CHANGE LARGEST_SUM CYCLES";
+
+} // namespace
+
 AnswerLine VectorReader::answer() {
   constexpr std::int64_t most_cycles = std::int64_t{1} << 53;
   const std::string fire =
       fmt::format("fire {} {} CYCLE and {} outputs", next_sweep_, next_phase_, phases_[next_phase_].size());
-  const std::string shape =
-      next_phase_ > 0 || next_sweep_ == 1 ? fire : fire + ", or end SWEEPS CONVERGED LARGEST_CHANGE CYCLES";
+  const std::string shape = next_phase_ > 0 || next_sweep_ == 1 ? fire : fire + ", or " + end_shape;
   if (!lines_.read()) lines_.fail("the end of the file", shape);
   const Words w = lines_.split();
   if (w[0] == "?") lines_.fail("?", "answers: this case was not filled in");
@@ -21,11 +26,12 @@ AnswerLine VectorReader::answer() {
   a.line = lines_.line();
   a.end = w[0] == "end" && next_phase_ == 0 && next_sweep_ > 1;
   if (a.end) {
-    if (w.size() != 5) lines_.fail(in_quotes(lines_.text()), "end SWEEPS CONVERGED LARGEST_CHANGE CYCLES");
+    if (w.size() != 6) lines_.fail(in_quotes(lines_.text()), end_shape);
     a.run = {static_cast<std::uint32_t>(lines_.number(w[1], 0, UINT32_MAX, "sweeps")),
              lines_.number(w[2], 0, 1, "converged") == 1,
              static_cast<std::uint32_t>(lines_.number(w[3], 0, UINT32_MAX, "the largest change")),
-             static_cast<std::uint64_t>(lines_.number(w[4], 0, most_cycles, "cycles"))};
+             static_cast<std::uint64_t>(lines_.number(w[5], 0, most_cycles, "cycles")),
+             static_cast<std::uint64_t>(lines_.number(w[4], 0, INT64_MAX, "the largest sum"))};
     in_answers_ = false;
     return a;
   }

@@ -21,8 +21,8 @@ struct Judge {
 };
 
 std::string inputs_text(const Divergence& d) {
-  std::string text =
-      fmt::format("\n  V before {}, bias {}; its inputs one update earlier:", d.before_raw, d.bias_raw);
+  std::string text = fmt::format("\n  V before {}, bias {}; its inputs one update earlier{}:", d.before_raw,
+                                 d.bias_raw, ahead_note(d.ahead));
   for (const Tap& tap : d.taps)
     text += fmt::format("\n    cell {:>6} neuron {}  weight {:>11}  V {:>11}", tap.cell, tap.component,
                         tap.weight_raw, tap.output_raw);
@@ -48,10 +48,12 @@ std::string Judge::of_fire(const AnswerLine& a, const Codes& before, const Codes
 
 std::string Judge::of_end(const AnswerLine& a, const spec::Relaxation& end) const {
   const auto text = [](const spec::Relaxation& e) {
-    return fmt::format("end {} {:d} {} {}", e.sweeps, e.converged, e.largest_change, e.cycles);
+    return fmt::format("end {} {:d} {} {} {}", e.sweeps, e.converged, e.largest_change, e.largest_sum,
+                       e.cycles);
   };
   if (a.run == end) return "";
-  return fmt::format("{}:{}: case {}: found {}, expected {} (sweeps, converged, largest change, cycles)",
+  return fmt::format("{}:{}: case {}: found {}, expected {} (sweeps, converged, largest change, largest sum, "
+                     "cycles)",
                      path, a.line, a_case.name, text(a.run), text(end));
 }
 
@@ -65,11 +67,11 @@ std::string check_answers(const std::string& path, VectorReader& reader, const V
   const BusArray array(bus, job.topology);
   load(array, job);
   const Codes start = array.outputs(); // held within [-1, 1] as it was written
-  const spec::Relaxation end = array.run(job.threshold, job.max_sweeps);
-  array.put_outputs(job.start);
+  const spec::Relaxation end = run_whole(array, job);
+  SweepBySweep sweeps(array, job);
   Codes before = start;
   for (std::uint64_t sweep = 1; sweep <= end.sweeps; ++sweep) {
-    array.one_sweep();
+    sweeps.next();
     Codes after = array.outputs();
     for (std::size_t k = 0; k < timing.phases.size(); ++k, ++lines) {
       const AnswerLine a = reader.answer();

@@ -32,6 +32,8 @@ bool VectorReader::next(VectorCase& a_case) {
   lines_.check_rules(job.array, job.topology.most_taps(), table_);
   job.threshold = static_cast<std::uint32_t>(lines_.expect_number("threshold", 0, UINT32_MAX));
   job.max_sweeps = static_cast<std::uint32_t>(lines_.expect_number("max_sweeps", 0, UINT32_MAX));
+  read_stop(job);
+  read_momentum(job);
   read_neurons(job);
   read_phases(job);
   if (!lines_.expect("answers", "answers").empty()) lines_.fail(in_quotes(lines_.text()), "answers");
@@ -76,6 +78,23 @@ void VectorReader::check_links(const spec::Topology& t, const std::vector<int>& 
                                fmt::format("cell {} linked to {}", c, other),
                                fmt::format("{} among the neighbours of {} too", c, other));
     }
+}
+
+void VectorReader::read_stop(ArrayJob& job) {
+  const std::string shape = "stop change or stop sum";
+  const Words w = lines_.expect("stop", shape);
+  if (w.size() != 1 || (w[0] != "change" && w[0] != "sum")) lines_.fail(in_quotes(lines_.text()), shape);
+  job.rule.by_sum = w[0] == "sum";
+  job.rule.share = static_cast<int>(lines_.expect_number("share", 0, most_share));
+  job.rule.floor = static_cast<std::uint64_t>(lines_.expect_number("sum_threshold", 0, INT64_MAX));
+}
+
+void VectorReader::read_momentum(ArrayJob& job) {
+  const std::size_t entries = table_entries(job.array);
+  const std::string shape = fmt::format("momentum and {} codes", entries);
+  const Words w = lines_.expect("momentum", shape);
+  if (w.size() != entries) lines_.fail(fmt::format("{} words behind \"momentum\"", w.size()), shape);
+  for (const std::string& word : w) job.momentum.push_back(code(word));
 }
 
 void VectorReader::read_neurons(ArrayJob& job) {

@@ -8,6 +8,11 @@ namespace hopmesh::cosim {
 
 namespace {
 
+/// The codes of a table, none where there is no table.
+std::string words_text(const std::string& key, const Codes& codes) {
+  return codes.empty() ? key + '\n' : fmt::format("{} {}\n", key, fmt::join(codes, " "));
+}
+
 std::string links_text(const spec::Topology& t) {
   std::string text = fmt::format("cells {}\nneurons_per_cell {}\n", t.cells(), t.neurons_per_cell);
   for (std::size_t c = 0; c < t.cells(); ++c) {
@@ -57,6 +62,9 @@ void VectorWriter::write_job(const VectorCase& a_case) {
   file_.write(array_lines(job.array, job.topology.most_taps(), table_));
   file_.write(links_text(job.topology));
   file_.write(fmt::format("threshold {}\nmax_sweeps {}\n", job.threshold, job.max_sweeps));
+  file_.write(fmt::format("stop {}\nshare {}\nsum_threshold {}\n", job.rule.by_sum ? "sum" : "change",
+                          job.rule.share, job.rule.floor));
+  file_.write(words_text("momentum", job.momentum));
   for (std::size_t k = 0; k < job.topology.neurons(); ++k) file_.write(neuron_text(job, k));
   const spec::Phases phases = spec::phases_of(job.topology, job.array.schedule);
   file_.write(fmt::format("phases {}\n", phases.size()));
@@ -70,10 +78,10 @@ void VectorWriter::write_answers(const ArrayJob& job, const hm_bus& bus) {
   const Timing timing(job);
   const BusArray array(bus, job.topology);
   load(array, job);
-  const spec::Relaxation end = array.run(job.threshold, job.max_sweeps);
-  array.put_outputs(job.start);
+  const spec::Relaxation end = run_whole(array, job);
+  SweepBySweep sweeps(array, job);
   for (std::uint64_t sweep = 1; sweep <= end.sweeps; ++sweep) {
-    array.one_sweep();
+    sweeps.next();
     const Codes after = array.outputs();
     for (std::size_t k = 0; k < timing.phases.size(); ++k) {
       std::string line = fmt::format("fire {} {} {}", sweep, k, timing.published(sweep, k));
@@ -81,7 +89,8 @@ void VectorWriter::write_answers(const ArrayJob& job, const hm_bus& bus) {
       file_.write(line + '\n');
     }
   }
-  file_.write(fmt::format("end {} {:d} {} {}\n", end.sweeps, end.converged, end.largest_change, end.cycles));
+  file_.write(fmt::format("end {} {:d} {} {} {}\n", end.sweeps, end.converged, end.largest_change,
+                          end.largest_sum, end.cycles));
 }
 
 } // namespace hopmesh::cosim

@@ -148,6 +148,13 @@ void refuse_beside(const TomlSource& source, const Keys& keys) {
   }
 }
 
+std::string no_effect(const TomlSource& source, const TomlValue& value, const std::string& key,
+                      const std::string& beside) {
+  const std::string place = value.line == 0 ? "" : fmt::format(":{}", value.line);
+  return fmt::format("{}{}: {}: no effect here; it counts only with {}", source.file_of(value.line), place,
+                     key, beside);
+}
+
 std::vector<std::string> without_effect(const TomlSource& source, const Keys& keys, const Keys& fresh) {
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -155,9 +162,7 @@ std::vector<std::string> without_effect(const TomlSource& source, const Keys& ke
     const TomlValue* value = source.find(key.name);
     if (!value || key.when.holds || key.when.otherwise != Otherwise::told || is_left_out(key)) continue;
     if (value->line != 0 && value_text(key.place) == value_text(fresh[k].place)) continue;
-    const std::string place = value->line == 0 ? "" : fmt::format(":{}", value->line);
-    notes.push_back(fmt::format("{}{}: {}: no effect here; it counts only with {}",
-                                source.file_of(value->line), place, key.name, key.when.beside));
+    notes.push_back(no_effect(source, *value, key.name, key.when.beside));
   }
   return notes;
 }

@@ -103,6 +103,10 @@ void refuse_beside(const TomlSource& source, const Keys& keys);
 /// count. `fresh` has the same keys with their defaults.
 std::vector<std::string> without_effect(const TomlSource& source, const Keys& keys, const Keys& fresh);
 
+/// Such a line for one key, of a value that counts only beside something.
+std::string no_effect(const TomlSource& source, const TomlValue& value, const std::string& key,
+                      const std::string& beside);
+
 /// A value as TOML; empty where there is none.
 std::string value_text(const Place& place);
 /// The table as a TOML file with every value that is there.

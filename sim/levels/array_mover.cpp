@@ -1,6 +1,8 @@
 #include "sim/levels/array_mover.h"
 
+#include "firmware/registers.h"
 #include "sim/levels/bus_array.h"
+#include "sim/levels/bus_error.h"
 #include "sim/levels/left_over.h"
 #include "sim/levels/processor_time.h"
 
@@ -58,7 +60,7 @@ hm_step_parameters step_parameters(const scene::Scene& scene) {
 ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                        ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), motion_(step_parameters(scene)),
-      memory_(mesh, motion_.formulation->looks_back), buffer_(longest_burst) {
+      relax_(scene.relax), memory_(mesh, motion_.formulation->looks_back), buffer_(longest_burst) {
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
   const bool signs = array.output == spec::Output::binary;
@@ -70,6 +72,10 @@ void ArrayMover::open() {
   check_opened(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
                               static_cast<std::uint32_t>(buffer_.size())),
                driver_);
+  driver_.stop = relax_.stop == scene::Stop::sum ? hm_stop{1, relax_.share} : hm_stop{0, 0};
+  const std::vector<double>& m = relax_.momentum;
+  if (driver_.output == HM_OUTPUT_MOMENTUM && !m.empty())
+    levels::check(hm_driver_put_momentum(&driver_, m.data(), static_cast<std::uint32_t>(m.size())));
 }
 
 StepRow ArrayMover::advance() {

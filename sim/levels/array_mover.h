@@ -46,6 +46,7 @@ class ArrayMover : public Mover {
   std::optional<LeftOver> left_over_;
   std::optional<ImageForce> image_;
   hm_step_parameters motion_{};
+  const scene::RelaxSpec relax_;
   hm_driver driver_{};
   StepMemory memory_;
   std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output

@@ -1,6 +1,7 @@
 #include "sim/levels/bus_array.h"
 
 #include "firmware/registers.h"
+#include "rtl_model/spec/capabilities.h"
 #include "sim/levels/array_port.h"
 #include "sim/levels/bus_error.h"
 
@@ -37,6 +38,11 @@ BusArray::Window BusArray::bias_window() const {
 BusArray::Window BusArray::output_window() const {
   const std::uint32_t packing = read(HM_REG_CAP_PACKING);
   return {read(HM_REG_CAP_WINDOW_OUTPUT), static_cast<int>(HM_FIELD(packing, CAP_PACKING_OUTPUT))};
+}
+
+BusArray::Window BusArray::momentum_window() const {
+  const std::uint32_t packing = read(HM_REG_CAP_PACKING);
+  return {read(HM_REG_CAP_WINDOW_MOMENTUM), static_cast<int>(HM_FIELD(packing, CAP_PACKING_MOMENTUM))};
 }
 
 Codes BusArray::read_window(const Window& window, std::size_t count) const {
@@ -79,9 +85,17 @@ spec::Relaxation BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps
   return last_run();
 }
 
+spec::Relaxation BusArray::run(std::uint32_t threshold, std::uint32_t max_sweeps,
+                               const spec::StopRule& rule) const {
+  write(HM_REG_STOP, spec::stop_word(rule));
+  write(HM_REG_SUM_THRESHOLD_LO, static_cast<std::uint32_t>(rule.floor));
+  write(HM_REG_SUM_THRESHOLD_HI, static_cast<std::uint32_t>(rule.floor >> 32));
+  return run(threshold, max_sweeps);
+}
+
 spec::Relaxation BusArray::last_run() const {
   return {read(HM_REG_SWEEPS), (read(HM_REG_STATUS) & HM_STATUS_CONVERGED) != 0, read(HM_REG_LARGEST_CHANGE),
-          read_wide(HM_REG_CYCLES_LO)};
+          read_wide(HM_REG_CYCLES_LO), read_wide(HM_REG_LARGEST_SUM_LO)};
 }
 
 std::uint32_t BusArray::threshold() const {
@@ -90,6 +104,12 @@ std::uint32_t BusArray::threshold() const {
 
 std::uint32_t BusArray::max_sweeps() const {
   return read(HM_REG_MAX_SWEEPS);
+}
+
+spec::StopRule BusArray::stop_rule() const {
+  const std::uint32_t stop = read(HM_REG_STOP);
+  return {HM_FIELD(stop, STOP_BY_SUM) != 0, static_cast<int>(HM_FIELD(stop, STOP_SHARE)),
+          read_wide(HM_REG_SUM_THRESHOLD_LO)};
 }
 
 std::vector<std::uint32_t> BusArray::capabilities() const {
@@ -115,6 +135,14 @@ Codes BusArray::biases() const {
 
 Codes BusArray::outputs() const {
   return read_window(output_window(), topology_.neurons());
+}
+
+void BusArray::put_momentum(const Codes& codes) const {
+  write_window(momentum_window(), codes);
+}
+
+Codes BusArray::momentum(std::size_t entries) const {
+  return read_window(momentum_window(), entries);
 }
 
 } // namespace hopmesh::levels

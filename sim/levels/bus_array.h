@@ -17,15 +17,21 @@ class BusArray {
   void put_outputs(const Codes& codes) const;
   /// From where V is, until at rest or `max_sweeps`.
   spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
+  /// The same by a rule of STOP. That of a run without one is what the array has: none after RESET.
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule) const;
   spec::Relaxation one_sweep() const { return run(0, 1); }
   /// What the registers tell of the last run, and what it was started with.
   spec::Relaxation last_run() const;
   std::uint32_t threshold() const;
   std::uint32_t max_sweeps() const;
+  spec::StopRule stop_rule() const;
 
   Codes weights() const;
   Codes biases() const;
   Codes outputs() const;
+  /// The table of m, of an array that has one.
+  void put_momentum(const Codes& codes) const;
+  Codes momentum(std::size_t entries) const;
   /// Every capability register, in the order of their addresses.
   std::vector<std::uint32_t> capabilities() const;
   /// Cycles in which the host has held the bus until now.
@@ -44,6 +50,7 @@ class BusArray {
   Window weight_window() const;
   Window bias_window() const;
   Window output_window() const;
+  Window momentum_window() const;
   Codes read_window(const Window& window, std::size_t codes) const;
   void write_window(const Window& window, const Codes& codes) const;
 

@@ -45,20 +45,46 @@ double alternation_of(const Swept& swept, const Vector& V) {
 } // namespace
 
 double alternation(const reference::Network& network, const reference::Order& order, const Vector& V,
-                   reference::Neuron neuron) {
+                   const reference::NeuronRule& rule) {
   const auto swept = [&](const Vector& from, std::uint32_t sweeps) {
-    return reference::relax(network, order, from, 0, sweeps, neuron).V;
+    return reference::relax(network, order, from, 0, sweeps, rule).V;
   };
   return alternation_of(swept, V);
 }
 
+namespace {
+
 reference::Neuron neuron_of(spec::Output output) {
-  return output == spec::Output::binary ? reference::Neuron::binary : reference::Neuron::modified;
+  switch (output) {
+  case spec::Output::binary:
+    return reference::Neuron::binary;
+  case spec::Output::projected:
+    return reference::Neuron::projected;
+  case spec::Output::momentum:
+    return reference::Neuron::momentum;
+  default:
+    return reference::Neuron::modified;
+  }
+}
+
+double half_place(const spec::NumberFormat& format) {
+  return std::ldexp(0.5, -format.fraction_bits());
+}
+
+} // namespace
+
+reference::NeuronRule rule_of(const spec::ArraySpec& array, const std::vector<double>& momentum) {
+  constexpr double sixteenth = 1.0 / 16; // of which the key tells a number
+  reference::NeuronRule rule{neuron_of(array.output), array.relaxation * sixteenth, momentum};
+  rule.nearness = half_place(array.formats.link); // what links show as the bound
+  if (momentum.empty()) rule.momentum = reference::fista(static_cast<std::size_t>(array.momentum_entries));
+  return rule;
 }
 
 reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array) {
   reference::StepParameters motion = reference::step_parameters(scene);
-  motion.neuron = neuron_of(array.output);
+  motion.rule = rule_of(array, scene.relax.momentum);
+  if (scene.relax.stop == scene::Stop::sum) motion.share = scene.relax.share;
   return motion;
 }
 
@@ -94,11 +120,15 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   const std::size_t neurons = start.size();
   answer.V = by_node(std::vector<double>(built.output, built.output + neurons));
   answer.sweeps = last.sweeps;
-  const bool signs = motion_.neuron == reference::Neuron::binary;
-  const reference::BlockSweeps& sweeps = laid_out(network);
+  const reference::BlockSweeps& twin = laid_out(network);
+  const Swept swept = [&](const Vector& from, std::uint32_t sweeps) {
+    if (motion_.rule.neuron == reference::Neuron::modified) return twin.swept(from, sweeps);
+    return reference::relax(network, order_, from, -1, sweeps, motion_.rule).V;
+  };
   const reference::Judgement judgement =
-      signs ? reference::judge_signs(network, order_, answer, motion_.max_sweeps)
-            : reference::judge_answer(sweeps, answer);
+      motion_.rule.neuron == reference::Neuron::binary
+          ? reference::judge_signs(network, order_, answer, motion_.max_sweeps)
+          : reference::judge_answer(twin.network(), swept(answer.start, answer.sweeps), answer);
   const auto rms = [&](const Vector& a, const Vector& b) {
     return std::sqrt((a - b).squaredNorm() / static_cast<double>(neurons));
   };
@@ -108,12 +138,9 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.rounding = rms(answer.V, judgement.same_sweeps);
   error.stopping = rms(judgement.same_sweeps, judgement.rest);
   error.energy_gap = judgement.gap;
-  error.fall_left = fall_left(sweeps.network(), answer.start, answer.V, judgement.rest);
+  error.fall_left = fall_left(twin.network(), answer.start, answer.V, judgement.rest);
   error.network = network_difference(network, built);
-  if (last.converged) return error;
-  const auto swept = [&](const Vector& from, std::uint32_t count) { return sweeps.swept(from, count); };
-  error.alternation =
-      signs ? alternation(network, order_, answer.V, motion_.neuron) : alternation_of(swept, answer.V);
+  if (!last.converged) error.alternation = alternation_of(swept, answer.V);
   return error;
 }
 

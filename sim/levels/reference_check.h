@@ -9,8 +9,9 @@ namespace hopmesh::levels {
 
 /// The order in which an array's schedule fires, with the reference's numbering (over all nodes).
 reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
-/// An array's output stage as the reference has it.
-reference::Neuron neuron_of(spec::Output output);
+/// An array's output stage as the reference has it. `momentum`: a table of a scene's own; empty: FISTA's, as
+/// long as the array's.
+reference::NeuronRule rule_of(const spec::ArraySpec& array, const std::vector<double>& momentum = {});
 /// A scene's motion as the output stage of an array makes it.
 reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
 
@@ -22,7 +23,7 @@ reference::State state_of(const StepState& state);
 /// that dies.
 inline constexpr std::uint32_t swings = 20; ///< even
 double alternation(const reference::Network& network, const reference::Order& order,
-                   const reference::Vector& V, reference::Neuron neuron = reference::Neuron::modified);
+                   const reference::Vector& V, const reference::NeuronRule& rule = {});
 
 class ReferenceCheck {
  public:

@@ -31,8 +31,7 @@ StepRow ReferenceMover::advance() {
   row.time = static_cast<double>(state_.step) * motion_.time_step;
   row.sweeps = last_.relaxation.sweeps;
   row.converged = last_.relaxation.converged;
-  if (!row.converged)
-    row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.neuron);
+  if (!row.converged) row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.rule);
   row.input_left = input_left(last_.network, last_.relaxation.V);
   row.fall_left = left_of_fall();
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
@@ -51,14 +50,14 @@ double ReferenceMover::left_of_fall() {
   else
     blocks_.emplace(last_.network, static_cast<Eigen::Index>(mesh_.components()));
   const reference::Vector rest =
-      motion_.neuron == reference::Neuron::binary
+      motion_.rule.neuron == reference::Neuron::binary
           ? reference::judge_signs(last_.network, order_, {last_.V0, V, 0}, sweeps_of_signs).rest
           : reference::rest_from(*blocks_, V).V;
   return fall_left(*blocks_, last_.V0, V, rest);
 }
 
 void ReferenceMover::answer_after(reference::SweepsOfSteps sweeps) {
-  motion_.answer = reference::by_equal_sweeps(std::move(sweeps), motion_.neuron);
+  motion_.answer = reference::by_equal_sweeps(std::move(sweeps), motion_.rule);
 }
 
 void ReferenceMover::answer_at_rest() {

@@ -129,7 +129,7 @@ class MachineDrawing : public pictures::SvgCanvas {
     arrow({{490, 422}, {508, 422}, {508, 272}, {520, 272}});
     block({526, 320, 690, 386}, register_colour, "Accumulator s",
           {fmt::format("{} bits{}", f_.accumulator.width, a_.exact_accumulator ? ", exact" : ""),
-           spec::sums_norm(a_) ? fmt::format("beside it N: {} bits", norm_bits(a_, t_)) : ""});
+           spec::sums_norm(a_) ? fmt::format("beside it {}: {} bits", divisor(), norm_bits(a_, t_)) : ""});
     arrow({{608, 290}, {608, 314}});
     arrow({{490, 345}, {520, 345}});
     if (!spec::shares_stage(a_)) return arrow({{690, 353}, {756, 353}});
@@ -139,14 +139,33 @@ class MachineDrawing : public pictures::SvgCanvas {
     arrow({{690, 440}, {728, 440}, {728, 353}, {756, 353}});
   }
 
+  const char* divisor() const { return a_.output == spec::Output::projected ? "|w_ii|" : "N"; }
+
   Lines normaliser_lines() const {
     if (a_.output == spec::Output::binary) return {"u is the sign of s"};
     if (!spec::sums_norm(a_)) return {"rows are divided by the host", "u is s, rounded"};
     const std::uint64_t neurons = t_.neurons();
     const char* divider = spec::shares_stage(a_) ? "divider: all bits at once" : "divider: a bit a cycle";
-    if (!spec::has_reciprocal(a_)) return {"u = s / N", divider, "N: " + of_bits(neurons, norm_bits(a_, t_))};
+    if (!spec::has_reciprocal(a_))
+      return {fmt::format("u = s / {}", divisor()), divider,
+              fmt::format("{}: ", divisor()) + of_bits(neurons, norm_bits(a_, t_))};
     return {fmt::format("u = s · r: {} × {} bits", f_.accumulator.width, a_.reciprocal_bits), divider,
             "r: " + of_bits(neurons, reciprocal_bits(a_, t_))};
+  }
+
+  Lines change_lines() const {
+    switch (a_.output) {
+    case spec::Output::binary:
+      return {"ΔV = u − V"};
+    case spec::Output::projected:
+      return {"V + u, held", "within ±1"};
+    case spec::Output::momentum:
+      return {"Y + u is V,", "V + m · ΔV is Y:",
+              fmt::format("{} × {} bits", spec::momentum_format.width, f_.state.width + 1),
+              fmt::format("m: {} entries", grouped(static_cast<std::uint64_t>(a_.momentum_entries)))};
+    default:
+      return {"ΔV = R · u:", fmt::format("{} × {} bits", f_.state.width, f_.drive.width), "R = 1 ∓ V"};
+    }
   }
 
   void draw_stage() {
@@ -154,20 +173,21 @@ class MachineDrawing : public pictures::SvgCanvas {
          fmt::format("Output stage, {}: {}", parts_.stages == 1 ? "one for all" : "one each",
                      with_noun(spec::stage_cycles(a_), "cycle")),
          R"( font-size="15" font-weight="600")");
-    const bool multiplies = a_.output != spec::Output::binary;
-    Lines registers{fmt::format("u: {} bits, ΔV: {} bits", f_.drive.width, f_.state.width + 1)};
+    const bool normalises = a_.output != spec::Output::binary;
+    const bool multiplies = a_.output == spec::Output::modified || spec::has_momentum(a_);
+    const int twice = a_.output == spec::Output::projected ? 1 : 0; // u reaches 2
+    Lines registers{fmt::format("u: {} bits, ΔV: {} bits", f_.drive.width + twice, f_.state.width + 1)};
     if (a_.pipeline > 0)
       registers.push_back(with_noun(static_cast<std::uint64_t>(a_.pipeline), "register") + " of pipeline");
     block({762, 224, 942, 290}, register_colour, "Registers", registers);
-    block({762, 306, 942, 400}, multiplies && spec::has_reciprocal(a_) ? multiplier_colour : control_colour,
+    block({762, 306, 942, 400}, normalises && spec::has_reciprocal(a_) ? multiplier_colour : control_colour,
           "Normaliser", normaliser_lines());
-    block({972, 306, 1100, 400}, multiplies ? multiplier_colour : control_colour, "Change",
-          multiplies
-              ? Lines{"ΔV = R · u:", fmt::format("{} × {} bits", f_.state.width, f_.drive.width), "R = 1 ∓ V"}
-              : Lines{"ΔV = u − V"});
+    block({972, 306, 1100, 400}, multiplies ? multiplier_colour : control_colour, "Change", change_lines());
     arrow({{942, 353}, {966, 353}});
     block({762, 440, 1100, 506}, memory_colour, "States",
-          {"V: " + of_bits(t_.neurons(), f_.state.width), "V + ΔV is written, and shown as a link"});
+          {(spec::has_momentum(a_) ? "V, and as many Y: " : "V: ") + of_bits(t_.neurons(), f_.state.width),
+           spec::has_momentum(a_) ? "both are written; links show Y, after a restart V"
+                                  : "V + ΔV is written, and shown as a link"});
     arrow({{1036, 400}, {1036, 434}});
     arrow({{1072, 306}, {1072, 156}});
     text(1064, 246, "|ΔV|", R"( text-anchor="end")");
@@ -178,7 +198,9 @@ class MachineDrawing : public pictures::SvgCanvas {
     const char* writes = !folded()            ? "to the neuron and its neighbours"
                          : parts_.stages == 1 ? "to every memory of links; one write a cycle"
                                               : "to every memory of links; a write for each stage";
-    text(662, 570, fmt::format("L: V in {} bits, {}", f_.link.width, writes), R"( text-anchor="middle")");
+    text(662, 570,
+         fmt::format("L: {} in {} bits, {}", spec::has_momentum(a_) ? "Y" : "V", f_.link.width, writes),
+         R"( text-anchor="middle")");
   }
 
   void draw_totals() {

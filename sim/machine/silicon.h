@@ -14,6 +14,7 @@ struct Parts {
   std::uint64_t stages = 0;        ///< output stages
   std::uint64_t link_memories = 1; ///< copies of all links: one an element
   std::uint64_t link_banks = 1;    ///< of each of them
+  std::uint64_t points = 1;        ///< that a neuron keeps, and a folded array shows: V, or V and Y
 };
 Parts parts_of(const spec::ArraySpec& array, const spec::Topology& topology);
 
@@ -24,20 +25,22 @@ int reciprocal_bits(const spec::ArraySpec& array, const spec::Topology& topology
 
 /// Bits that are kept: memories, and the registers of accumulators.
 struct MemoryBits {
-  std::uint64_t weights = 0, biases = 0, states = 0;
+  std::uint64_t weights = 0, biases = 0;
+  std::uint64_t states = 0;      ///< V, and Y where there is one
   std::uint64_t links = 0;       ///< all copies and banks
-  std::uint64_t norms = 0;       ///< N where it is summed, and where it is kept to be divided by
+  std::uint64_t norms = 0;       ///< N (or |w_ii|) where it is summed, and where it is kept to be divided by
   std::uint64_t reciprocals = 0; ///< of all neurons
   std::uint64_t sums = 0;        ///< accumulators, and hold registers in front of a shared stage
+  std::uint64_t momentum = 0;    ///< the table of m
 
-  std::uint64_t total() const { return weights + biases + states + links + norms + reciprocals + sums; }
+  std::uint64_t total() const { return weights + biases + states + links + norms + reciprocals + sums + momentum; }
 };
 MemoryBits memory_bits(const spec::ArraySpec& array, const spec::Topology& topology);
 
 /// Over all multipliers the product of the widths of what they multiply.
 struct MultiplierBits {
   std::uint64_t sums = 0;        ///< w L
-  std::uint64_t outputs = 0;     ///< R u
+  std::uint64_t outputs = 0;     ///< R u, or m by the change; none where a step is only added
   std::uint64_t normalisers = 0; ///< s r
 
   std::uint64_t total() const { return sums + outputs + normalisers; }

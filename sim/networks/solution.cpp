@@ -20,16 +20,16 @@ std::uint32_t length_of_cycle(NetworkLevel& level, const Eigen::VectorXd& V) {
 
 } // namespace
 
-Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options) {
+Solution solve(const GivenNetwork& network, NetworkLevel& level, bool outputs_decide) {
   Solution solution;
-  solution.rest = level.relax(options.threshold, options.max_sweeps);
+  solution.rest = level.relax();
   solution.clipped = level.clipped();
   solution.vanished = level.vanished();
   solution.V = level.outputs();
   solution.energy_at_start = network.energy(network.start());
   solution.energy = network.energy(solution.V);
   solution.kkt = network.kkt_violation(solution.V);
-  if (!solution.rest.converged) solution.limit_cycle = length_of_cycle(level, solution.V);
+  if (!solution.rest.converged && outputs_decide) solution.limit_cycle = length_of_cycle(level, solution.V);
   return solution;
 }
 

@@ -11,11 +11,6 @@ namespace hopmesh::networks {
 
 using levels::GivenNetwork, levels::NetworkLevel, levels::array_level, levels::reference_level;
 
-struct SolveOptions {
-  double threshold = 1e-4;
-  std::uint32_t max_sweeps = 10'000;
-};
-
 struct Solution {
   spec::Relaxation rest;
   std::uint32_t clipped = 0; ///< weights and biases that did not fit the formats of an array
@@ -26,8 +21,9 @@ struct Solution {
   std::uint32_t limit_cycle = 0; ///< sweeps after which the very same outputs come again; 0: none found
 };
 
-/// Relaxes; where that does not come to rest, looks whether the outputs go round in a short circle.
-Solution solve(const GivenNetwork& network, NetworkLevel& level, const SolveOptions& options);
+/// Relaxes; where that does not come to rest, looks whether the outputs go round in a short circle. Not where
+/// more than the outputs decides the next sweep, as momentum does.
+Solution solve(const GivenNetwork& network, NetworkLevel& level, bool outputs_decide);
 
 /// What was asked, for people and files.
 struct SolveLabel {

@@ -38,6 +38,18 @@ void check_array(const spec::ArraySpec& array, const spec::Topology& topology, c
     throw input::input_error(file, 0, fault->key, fault->found, fault->expected);
 }
 
+void check_momentum(const spec::ArraySpec& array, std::size_t entries) {
+  if (entries == 0) return;
+  if (!spec::has_momentum(array))
+    throw input::input_error("", 0, "--momentum",
+                             "array.output = " + std::string(spec::name_of(array.output)),
+                             "momentum, whose table it is");
+  if (entries > static_cast<std::size_t>(array.momentum_entries))
+    throw input::input_error("", 0, "--momentum", std::to_string(entries) + " numbers",
+                             "at most the " + std::to_string(array.momentum_entries) +
+                                 " of array.momentum_entries");
+}
+
 } // namespace
 
 SolveTask read_task(const NetworkFiles& files, std::int64_t seed) {
@@ -60,10 +72,11 @@ void apply_rule(const std::string& rule, bool is_set, const SolveTask& task, spe
 }
 
 TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const std::string& file,
-                   const levels::Level& row, const SolveOptions& options,
+                   const levels::Level& row, const levels::RelaxOptions& options,
                    const std::filesystem::path& folder) {
   const GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), file);
+  check_momentum(array, options.momentum.size());
   if (!folder.empty()) files::check_writable(folder, network.neurons() * 32);
   std::optional<files::FolderLock> lock; // before the work: two of them would mix their files
   if (!folder.empty()) lock.emplace(folder);
@@ -72,8 +85,9 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
   request.remarks = true;
   std::unique_ptr<levels::ArrayPort> port;
   if (row.has_bus()) port = row.make_port(array, network.topology(), request);
-  const auto level = port ? array_level(network, array, *port) : reference_level(network, array);
-  const Solution solution = solve(network, *level, options);
+  const auto level =
+      port ? array_level(network, array, options, *port) : reference_level(network, array, options);
+  const Solution solution = solve(network, *level, !spec::has_momentum(array));
   SolveLabel label{task.name, row.name, std::string(spec::name_of(array.output)),
                    std::string(spec::name_of(array.schedule)), ""};
   if (task.verdict) label.verdict = task.verdict({solution.V.data(), solution.V.data() + solution.V.size()});

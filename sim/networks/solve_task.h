@@ -35,7 +35,7 @@ struct TaskEnd {
 /// input::InputError where the array (of `file`) cannot have the network, levels::Stopped where the user
 /// stops an array, and files::WriteError.
 TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const std::string& file,
-                   const levels::Level& level, const SolveOptions& options,
+                   const levels::Level& level, const levels::RelaxOptions& options,
                    const std::filesystem::path& folder);
 
 } // namespace hopmesh::networks

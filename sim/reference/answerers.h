@@ -10,7 +10,7 @@ using SweepsOfSteps = std::vector<std::vector<std::uint32_t>>;
 
 /// By as many sweeps as an array took. A reference that looks longer for its scale takes the array's last
 /// count again; behind the array's last step none is taken.
-Answerer by_equal_sweeps(SweepsOfSteps sweeps, Neuron neuron);
+Answerer by_equal_sweeps(SweepsOfSteps sweeps, const NeuronRule& rule);
 
 /// By the rest: of signs where the rule itself comes to, else the one that lies down from where the rule
 /// would have stopped. Converged where it is found. `components`: of a node.

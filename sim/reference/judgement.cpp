@@ -18,10 +18,9 @@ double largest_terms(const BlockNetwork& network) {
 
 } // namespace
 
-Judgement judge_answer(const BlockSweeps& sweeps, const Answer& answer) {
-  const BlockNetwork& network = sweeps.network();
+Judgement judge_answer(const BlockNetwork& network, Vector same_sweeps, const Answer& answer) {
   Judgement judgement;
-  judgement.same_sweeps = sweeps.swept(answer.start, answer.sweeps);
+  judgement.same_sweeps = std::move(same_sweeps);
   judgement.rest = rest_from(network, judgement.same_sweeps).V;
   double left = energy_above(network, judgement.rest, answer.V);
   if (left < 0) {
@@ -37,7 +36,7 @@ Judgement judge_answer(const BlockSweeps& sweeps, const Answer& answer) {
 Judgement judge_signs(const Network& network, const Order& order, const Answer& answer,
                       std::uint32_t most_sweeps) {
   const auto relaxed = [&](const Vector& from, std::uint32_t sweeps) {
-    return relax(network, order, from, 0, sweeps, Neuron::binary).V;
+    return relax(network, order, from, 0, sweeps, {Neuron::binary}).V;
   };
   Judgement judgement;
   judgement.same_sweeps = relaxed(answer.start, answer.sweeps);

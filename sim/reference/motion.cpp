@@ -53,7 +53,7 @@ State initial_state(const scene::Mesh& mesh, const Formulation& formulation) {
 Relaxation answered(const StepParameters& motion, const Network& network, const Order& order,
                     const Vector& V0, std::uint64_t step) {
   if (motion.answer) return motion.answer(network, order, V0, step);
-  return relax(network, order, V0, motion.threshold, motion.max_sweeps, motion.neuron);
+  return relax(network, order, V0, motion.stop(), motion.rule);
 }
 
 Step advance(const scene::Mesh& mesh, const StepParameters& motion, const Order& order, State& state) {

@@ -2,38 +2,14 @@
 // alone. The reference shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
+#include "sim/reference/relaxation.h"
 #include "sim/scene/mesh.h"
 
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
-#include <cstdint>
 #include <functional>
 #include <string_view>
 #include <vector>
 
 namespace hopmesh::reference {
-
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
-/// Neurons are numbered components * node + p over ALL nodes (components: 3, or 2 for x and z in planar
-/// meshes); rows, columns and entries of pinned nodes are empty and zero.
-struct Network {
-  Matrix W;
-  Vector I;
-};
-
-/// Order in which neurons fire: one entry a phase; neurons of a phase all read the outputs from before it.
-using Order = std::vector<std::vector<std::uint32_t>>;
-
-/// What a neuron does with its input s: a step R s / N (paper eqs. 9 to 12), or the sign of s (paper eq. 3).
-enum class Neuron { modified, binary };
-
-struct Relaxation {
-  Vector V;
-  std::uint32_t sweeps = 0;
-  bool converged = false;
-};
 
 /// Whoever answers a network otherwise than relax() does: from V0, in the step so numbered.
 using Answerer = std::function<Relaxation(const Network& network, const Order& order, const Vector& V0,
@@ -44,7 +20,7 @@ extern const Formulation probe, backward_euler, bdf2, statics;
 
 struct StepParameters {
   const Formulation* formulation = &probe;
-  Neuron neuron = Neuron::modified;
+  NeuronRule rule = {};
   double mass = 1, drag = 0; ///< kg of a node; 1/s
   double time_step, friction, gamma, beta, acceleration_memory;
   bool energy_of_all_springs, force_on_acceleration;
@@ -52,7 +28,10 @@ struct StepParameters {
   Vector node_force; ///< incremental: [3 * nodes], each node's own beside it; empty: none
   double threshold;
   std::uint32_t max_sweeps, expansions;
-  Answerer answer = nullptr; ///< none: relax() by the threshold and max_sweeps
+  std::optional<double> share = {}; ///< of the first sweep's |s|, by which to stop; none: by the threshold
+  Answerer answer = nullptr;        ///< none: relax() until stop()
+
+  Stop stop() const { return {threshold, max_sweeps, share}; }
 };
 
 /// Motion of a scene; force is gravity plus wind.
@@ -102,21 +81,6 @@ double energy(const scene::Mesh& mesh, const Increment& increment, double scale,
 Network network(const scene::Mesh& mesh, const Increment& increment, double scale, const Vector& V0);
 /// da of the step before over the scale.
 Vector expansion_point(const scene::Mesh& mesh, const State& state, double scale);
-
-// ---- both
-
-/// -1/2 V'WV - I'V.
-double network_energy(const Network& network, const Vector& V);
-/// The rule of docs/method/theory.md, section 3, from V (in the box [-1, 1]), until no output moves by more
-/// than threshold in a sweep, or max_sweeps.
-Relaxation relax(const Network& network, const Order& order, Vector V, double threshold,
-                 std::uint32_t max_sweeps, Neuron neuron = Neuron::modified);
-/// Largest violation of the KKT conditions on the box [-1, 1]: how far a step of s_i / N_i can move V_i.
-double kkt_violation(const Network& network, const Vector& V);
-/// s of the neurons that may still move; 0 of those at a bound that s pushes against.
-Vector movable_input(const Network& network, const Vector& V);
-/// network_energy(from) - network_energy(to), with the digits that their difference loses.
-double fall(const Network& network, const Vector& from, const Vector& to);
 
 /// What one step did, for records and for `network --step`: V0 and network of the last expansion, and the
 /// rest it relaxed to; sweeps of all expansions together.

@@ -34,6 +34,8 @@ std::string multipliers_text(const spec::ArraySpec& array, const spec::Topology&
 
 std::string stage_text(const spec::ArraySpec& array) {
   std::string text(name_of(array.output));
+  if (array.output == spec::Output::projected) text += fmt::format(", omega {}", array.relaxation / 16.0);
+  if (spec::has_momentum(array)) text += fmt::format(", a table of {} m", array.momentum_entries);
   if (spec::is_folded(array)) text += spec::shares_stage(array) ? ", one for all" : ", one an element";
   if (array.pipeline > 0)
     text += fmt::format(", {} of pipeline",
@@ -124,11 +126,15 @@ std::string window_text(const spec::ArraySpec& array, const spec::MemoryWindow& 
 FigureTable bus(const levels::BuiltMesh& mesh, const spec::ArraySpec& array) {
   const spec::MemoryMap map = spec::memory_map(array, mesh.topology());
   const spec::Formats& f = array.formats;
-  return {"Bus",
-          {{"registers and windows", fmt::format("{} KiB", grouped(map.span / 1024))},
-           {"window WEIGHT", window_text(array, map[spec::Window::WEIGHT], f.weight.width)},
-           {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
-           {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
+  FigureTable table{"Bus",
+                    {{"registers and windows", fmt::format("{} KiB", grouped(map.span / 1024))},
+                     {"window WEIGHT", window_text(array, map[spec::Window::WEIGHT], f.weight.width)},
+                     {"window BIAS", window_text(array, map[spec::Window::BIAS], f.bias.width)},
+                     {"window OUTPUT", window_text(array, map[spec::Window::OUTPUT], f.state.width)}}};
+  if (spec::has_momentum(array))
+    table.second.push_back(
+        {"window MOMENTUM", window_text(array, map[spec::Window::MOMENTUM], spec::momentum_format.width)});
+  return table;
 }
 
 std::string formulation(const scene::Scene& scene) {
@@ -147,6 +153,12 @@ std::string start_text(const scene::Start& start) {
   return place + fmt::format(", at ({}, {}, {}) m/s", v[0], v[1], v[2]);
 }
 
+std::string rest_text(const scene::RelaxSpec& relax) {
+  return relax.stop == scene::Stop::sum
+             ? fmt::format("no free neuron's |s| is above {} of the first sweep's largest", relax.share)
+             : fmt::format("no output moves by more than {}", relax.threshold);
+}
+
 FigureTable motion(const scene::Scene& scene) {
   return {"Motion",
           {{"formulation", formulation(scene)},
@@ -154,9 +166,8 @@ FigureTable motion(const scene::Scene& scene) {
                                  scene.motion.time_step)},
            {"start", start_text(scene.mesh.start)},
            {"expansions a step", fmt::format("{}", scene.relax.expansions)},
-           {"relaxed until",
-            fmt::format("no output moves by more than {}, at most {} sweeps", scene.relax.threshold,
-                        grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
+           {"relaxed until", fmt::format("{}, at most {} sweeps", rest_text(scene.relax),
+                                         grouped(static_cast<std::uint64_t>(scene.relax.max_sweeps)))}}};
 }
 
 /// What values of keys leave out, as the table has it.

@@ -65,10 +65,11 @@ FigureTable memory_table(const spec::ArraySpec& array, const spec::Topology& top
   std::vector<pictures::Figure> rows{
       {"weights", kib(bits.weights)},
       {"biases", kib(bits.biases)},
-      {"states", kib(bits.states)},
+      {spec::has_momentum(array) ? "states, V and Y" : "states", kib(bits.states)},
       {"links", kib(bits.links) + copies_text(machine::parts_of(array, topology))}};
   add_kib("norms", bits.norms, rows);
   add_kib("reciprocals", bits.reciprocals, rows);
+  add_kib("table of m", bits.momentum, rows);
   rows.push_back({"accumulators", kib(bits.sums)});
   rows.push_back({"all", grouped(bits.total()) + " bits"});
   return {"Memory", rows};
@@ -79,7 +80,8 @@ FigureTable multiplier_table(const spec::ArraySpec& array, const spec::Topology&
   FigureTable table{"Multipliers, width times width", {}};
   auto& rows = table.second;
   rows.push_back({"w L of the sums", grouped(bits.sums) + " bits"});
-  if (bits.outputs > 0) rows.push_back({"R u", grouped(bits.outputs) + " bits"});
+  if (bits.outputs > 0)
+    rows.push_back({spec::has_momentum(array) ? "m ΔV" : "R u", grouped(bits.outputs) + " bits"});
   if (bits.normalisers > 0) rows.push_back({"s r", grouped(bits.normalisers) + " bits"});
   rows.push_back({"all multipliers", grouped(bits.total()) + " bits"});
   if (const std::uint64_t divider = machine::divider_bits(array, topology))

@@ -42,11 +42,21 @@ struct IncrementalSpec {
   Rule rule = Rule::backward_euler;
 };
 
+/// By which measure a relaxation has come to rest.
+enum class Stop : std::uint8_t { change, sum };
+inline constexpr std::array<std::string_view, 2> stop_names{"change", "sum"};
+
 struct RelaxSpec {
   double threshold = 1e-4;
   std::int64_t max_sweeps = 300;
   std::int64_t expansions = 1;
+  Stop stop = Stop::change;
+  double share = 0x1p-13;            ///< 0: none
+  std::vector<double> momentum = {}; ///< m of each sweep, the last for all that follow; empty: "fista"
 };
+
+/// The table of m as the value of a key.
+input::Special momentum_list(std::vector<double>& list);
 
 struct RivalSpec {
   double tolerance = 0;
@@ -93,10 +103,20 @@ inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, 
           "speed or inertia")
           .counts(incremental),
       Key("relax.threshold", &r.threshold, from_zero,
-          "a sweep in which no output moves by more is the last one"),
+          "a sweep in which no output moves by more is the last one")
+          .counts({r.stop == Stop::change, "relax.stop = \"change\""}),
       Key("relax.max_sweeps", &r.max_sweeps, count, "at most so many sweeps a step and expansion"),
       Key("relax.expansions", &r.expansions, {1, 1000, ""},
           "how often a step expands the energy anew about the outputs it came to"),
+      Key("relax.stop", spec::choice(r.stop, stop_names),
+          "what tells rest: how far outputs move, or the inputs s of neurons that may still move"),
+      Key("relax.share", &r.share, {0, 0.5, "a number from 0 to 0.5"},
+          "a sweep whose largest |s| is at most this share of the first sweep's is the last one, and so is "
+          "one at what a last place of the link is worth; arrays take the power of two at or below")
+          .counts({r.stop == Stop::sum, "relax.stop = \"sum\""}),
+      Key("relax.momentum", momentum_list(r.momentum),
+          "m of `array.output = \"momentum\"`, sweep by sweep; the last one holds on")
+          .allows("`\"fista\"`, or a list of numbers from 0 to 1"),
       Key("rival.tolerance", &v.tolerance, from_zero,
           "levels that are implicit integrators end a step with the iteration that moves no coordinate by "
           "more; 0: as each of them does by itself")

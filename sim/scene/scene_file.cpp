@@ -7,6 +7,23 @@
 
 namespace hopmesh::scene {
 
+namespace {
+
+/// A list of m wants an array with a table that has room for it.
+void judge_momentum(const input::TomlSource& source, Inputs& inputs) {
+  const std::string key = "relax.momentum";
+  const std::size_t entries = inputs.scene.relax.momentum.size();
+  const auto room = static_cast<std::size_t>(inputs.array.momentum_entries);
+  if (entries == 0) return;
+  if (!spec::has_momentum(inputs.array))
+    inputs.notes.push_back(input::no_effect(source, *source.find(key), key, "array.output = \"momentum\""));
+  else if (entries > room)
+    throw scene_error(inputs.scene, key, std::to_string(entries) + " numbers",
+                      "at most the " + std::to_string(room) + " of array.momentum_entries");
+}
+
+} // namespace
+
 Inputs read_inputs(const std::string& scene, const std::string& array,
                    const std::vector<std::string>& overrides) {
   const std::string path = input::path_of(scene, input::Shipped::scene);
@@ -23,6 +40,7 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
   Scene fresh;
   inputs.notes = input::without_effect(source, scene_keys(inputs.scene), scene_keys(fresh));
   inputs.array = input::read_array(array, of_array, inputs.notes);
+  judge_momentum(source, inputs);
   return inputs;
 }
 

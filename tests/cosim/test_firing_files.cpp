@@ -76,8 +76,8 @@ TEST_P(FiringFiles, comeBackAsTheyWere) {
   const FiringsJudged all = judged();
   EXPECT_EQ(all.wrong, "");
   EXPECT_EQ(all.firings, firings.size());
-  EXPECT_THAT(all.told, testing::ElementsAre("s", "N", "r", "u before the limiter", "u", "R", "R u", "dV",
-                                             "V", "link"));
+  EXPECT_THAT(all.told, testing::ElementsAre("s", "N", "r", "u before the limiter", "u", "R", "product", "dV",
+                                             "V", "Y", "link"));
   EXPECT_THAT(all.untold, testing::IsEmpty());
 }
 
@@ -94,6 +94,7 @@ void change(Firing& f, const std::string& column, std::int64_t more) {
   if (column == "product") s.product += more;
   if (column == "change") s.change += more;
   if (column == "state_after") s.state += static_cast<std::int32_t>(more);
+  if (column == "extrapolated_after") s.extrapolated += static_cast<std::int32_t>(more);
   if (column == "link_after") s.link += static_cast<std::int32_t>(more);
 }
 

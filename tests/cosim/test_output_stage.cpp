@@ -29,7 +29,7 @@ class StageUnderTest {
   }
   std::int64_t output(std::int64_t v) {
     stage_.load(static_cast<std::int32_t>(v));
-    stage_.bias_by_r(stage_.drive_raw());
+    stage_.find_change(stage_.drive_raw());
     stage_.publish();
     return stage_.state_raw();
   }

@@ -27,8 +27,10 @@ struct FakeArray {
   /// Where windows begin: nothing that a driver could have computed.
   std::uint32_t first_link = 0x7000, link = 0x9100, biases = 0x5550, outputs = 0x2340, weights = 0xABCDE000;
   /// Codes in a word.
-  std::uint32_t of_bias = 1, of_output = 1, of_weight = 1;
-  std::uint32_t packing() const { return of_bias | of_output << 8 | of_weight << 16 | 1u << 24; }
+  std::uint32_t of_bias = 1, of_output = 1, of_weight = 1, of_momentum = 1;
+  std::uint32_t packing() const { return of_bias | of_output << 8 | of_weight << 16 | of_momentum << 24; }
+  /// The table of m, of an array that has one.
+  std::uint32_t momentum = 0x6660, momentum_words = 0;
 };
 
 /// A path of three free nodes 0 - 1 - 2, held by the pinned node 3: planar, so that it can be checked by
@@ -73,7 +75,20 @@ class DriverTest : public testing::Test {
     bus.expect_read(HM_REG_CAP_FORMAT_WEIGHT, spec::format_word(array.weight));
     bus.expect_read(HM_REG_CAP_FORMAT_BIAS, spec::format_word(array.bias));
     bus.expect_read(HM_REG_CAP_FORMAT_STATE, spec::format_word(array.state));
+    if (array.output == HM_OUTPUT_MOMENTUM) expect_momentum(array);
     bus.expect_write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
+  }
+  /// The sequence of the page, in the places of the window.
+  void expect_momentum(const FakeArray& array) {
+    bus.expect_read(HM_REG_CAP_PACKING, array.packing());
+    bus.expect_read(HM_REG_CAP_WINDOW_MOMENTUM, array.momentum);
+    bus.expect_read(HM_REG_CAP_MOMENTUM_WORDS, array.momentum_words);
+    std::vector<double> t{1}, m;
+    for (std::size_t k = 0; k < std::size_t{array.momentum_words} * array.of_momentum; ++k) {
+      t.push_back((1 + std::sqrt(1 + 4 * t[k] * t[k])) / 2);
+      m.push_back((t[k] - 1) / t[k + 1]);
+    }
+    expect_bursts(true, array.momentum, packed(codes(m, 0, of_m), array.of_momentum));
   }
   int open() {
     return hm_driver_open(&driver, bus.bus(), &mesh.mesh, buffer.data(), std::uint32_t(buffer.size()));
@@ -139,6 +154,7 @@ class DriverTest : public testing::Test {
     for (std::size_t k = 0; k < mesh.output.size(); ++k) mesh.output[k] = -1 + 0.4 * k;
   }
 
+  const spec::NumberFormat of_m{16, 1, spec::Rounding::rnd, spec::Overflow::sat};
   std::uint32_t version = HM_VERSION_VALUE; ///< that the array tells
   FirmwareMesh mesh;
   std::vector<std::uint32_t> buffer = std::vector<std::uint32_t>(64);

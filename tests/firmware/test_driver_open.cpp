@@ -72,7 +72,7 @@ TEST_F(DriverTest, OpenTakesAnotherMinorVersion) {
 /// The drivers of version 1 compared the whole word with theirs.
 TEST_F(DriverTest, DriversOfVersionOneRefuseThisOne) {
   EXPECT_NE(HM_VERSION_VALUE, 0x00010001u);
-  EXPECT_EQ(HM_VERSION_VALUE, 0x00020000u);
+  EXPECT_EQ(HM_VERSION_VALUE, 0x00020001u);
 }
 
 TEST_F(DriverTest, OpenRefusesAPackingThatIsNone) {

@@ -92,6 +92,30 @@ TEST_F(Silicon, WithoutANormThereIsNothingToDivide) {
   }
 }
 
+TEST_F(Silicon, MomentumKeepsYAndATableAndMultipliesMByAChange) {
+  array.output = spec::Output::momentum, array.schedule = spec::Schedule::synchronous;
+  array.momentum_entries = 64;
+  EXPECT_EQ(memory_bits(array, square).states, 2u * 12 * 24);
+  EXPECT_EQ(memory_bits(array, square).links, 12u * 16);
+  EXPECT_EQ(memory_bits(array, square).momentum, 64u * 16);
+  EXPECT_EQ(multiplier_bits(array, square).outputs, 12u * 25 * 16);
+  fold(2, spec::Stages::one);
+  EXPECT_EQ(memory_bits(array, square).links, 2u * 2 * 2 * 12 * 16)
+      << "two elements, two banks, links of V and of Y";
+  EXPECT_EQ(multiplier_bits(array, square).outputs, 25u * 16);
+}
+
+TEST_F(Silicon, AProjectedStageAddsAndDividesByOneWeight) {
+  array.output = spec::Output::projected;
+  EXPECT_EQ(multiplier_bits(array, square).outputs, 0u);
+  EXPECT_EQ(memory_bits(array, square).norms,
+            12u * 16); // magnitudes of 16 bits, up to that of the least code
+  array.normaliser = spec::Normaliser::divider;
+  EXPECT_EQ(divider_bits(array, square), 12u * 16);
+  fold(3, spec::Stages::one);
+  EXPECT_EQ(divider_bits(array, square), 18u * 16); // 16 places of the drive, 1 and 2
+}
+
 TEST_F(Silicon, AnAccumulatorOfItsOwnLeavesNAsItIs) {
   array.exact_accumulator = false;
   array.formats.accumulator = {30, 9, spec::Rounding::trn, spec::Overflow::sat};

@@ -150,7 +150,7 @@ class Memory : public ::testing::TestWithParam<const char*> {
     for (double& v : start)
       if (dice.unit() < 0.1) v = -v;
     const auto rest = reference::relax(network.network(), one_by_one(pattern.size()), start, 0, 200,
-                                       reference::Neuron::binary);
+                                       {reference::Neuron::binary});
     EXPECT_TRUE(rest.converged);
     return overlap(pattern, rest.V);
   }

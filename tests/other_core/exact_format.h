@@ -52,13 +52,18 @@ inline Wide in_range(Wide x, const Format& f) {
   return f.overflow == "SC_SAT_ZERO" ? 0 : x > top ? top : bottom;
 }
 
-// a / b * 2^places as a code.
-inline Wide quantised(Wide a, Wide b, int places, const Format& f) {
+// a / b * 2^places as a whole number.
+inline Wide scaled(Wide a, Wide b, int places, const std::string& mode) {
   if (places >= 0)
     a *= Wide{1} << places;
   else
     b *= Wide{1} << -places;
-  return in_range(rounded(a, b, f.rounding), f);
+  return rounded(a, b, mode);
+}
+
+// a / b * 2^places as a code.
+inline Wide quantised(Wide a, Wide b, int places, const Format& f) {
+  return in_range(scaled(a, b, places, f.rounding), f);
 }
 
 inline Wide magnitude(Wide x) {

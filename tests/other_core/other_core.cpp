@@ -2,7 +2,7 @@
 // docs/use/test-vectors.md, docs/hardware/datapath.md and docs/hardware/cycles.md alone; it shares no line
 // with the rest of the tree, and every number is an exact fraction until a register takes it.
 //   other_core BLANK FILLED [K]     K: the K-th output (from 1) comes out one too high, as from a faulty core
-#include "tests/other_core/exact_format.h"
+#include "tests/other_core/built_core.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,22 +16,10 @@ namespace {
 
 using namespace other;
 
-struct Core {
-  std::string schedule, output, normaliser;
-  std::string stages;
-  int reciprocal_bits = 0, lanes = 1, per_cell = 3, elements = 0, pipeline = 0;
-  bool exact = false;
-  Format weight, bias, sum, drive, state, link;
-  long cells = 0, threshold = 0, max_sweeps = 1;
-  std::vector<std::vector<long>> links, phases;
-  std::vector<std::vector<Wide>> row; // of a neuron
-  std::vector<Wide> I, V, L;
-
-  std::size_t longest() const {
-    std::size_t most = 0;
-    for (const auto& r : row) most = std::max(most, r.size());
-    return most;
-  }
+struct Core : BuiltCore {
+  std::vector<Wide> I, V, L, Y, moves, table; // moves: of V in a sweep; table: of m
+  Wide largest_move = 0, largest_sum = 0, along = 0;
+  std::size_t entry = 0;
 
   void choose_sum() {
     if (!exact) return;
@@ -43,7 +31,11 @@ struct Core {
     sum.width = sum.fraction + integer_bits;
   }
 
-  void show(std::size_t i) { L[i] = quantised(V[i], 1, link.fraction - state.fraction, link); }
+  void show(std::size_t i, Wide x) { L[i] = quantised(x, 1, link.fraction - state.fraction, link); }
+  Wide in_box(Wide x) const {
+    const Wide one = Wide{1} << state.fraction;
+    return std::min(std::max(x, -one), one);
+  }
 
   Wide accumulate(std::size_t i, const std::vector<Wide>& seen) const {
     std::vector<Wide> input;
@@ -64,107 +56,107 @@ struct Core {
     return s;
   }
 
-  Wide driven(std::size_t i, Wide s) const {
-    const Wide one = Wide{1} << drive.fraction;
-    if (output == "binary") return s > 0 ? one : s < 0 ? -one : 0;
+  /// N, or what stands for it, in units of 2^-max(F_weight, F_bias).
+  Wide divisor(std::size_t i) const {
     const int unit = std::max(weight.fraction, bias.fraction);
-    Wide N = magnitude(I[i]) << (unit - bias.fraction), u = 0;
-    for (Wide w : row[i]) N += magnitude(w) << (unit - weight.fraction);
-    const int places = unit + drive.fraction - sum.fraction;
+    const auto in_units = [&](Wide w) { return magnitude(w) << (unit - weight.fraction); };
+    if (output == "projected") return in_units(row[i][i % static_cast<std::size_t>(per_cell)]);
+    Wide N = output == "momentum" ? 0 : magnitude(I[i]) << (unit - bias.fraction);
+    for (Wide w : row[i]) N += in_units(w);
+    return N;
+  }
+
+  Wide driven(std::size_t i, Wide s) const {
+    const Wide one = Wide{1} << drive.fraction, far = output == "projected" ? 2 * one : one;
+    const bool steps = output == "projected" || output == "momentum";
+    const Wide N = divisor(i);
+    if (output == "binary" || (steps && N == 0)) return s > 0 ? far : s < 0 ? -far : 0;
+    const int places = std::max(weight.fraction, bias.fraction) + drive.fraction - sum.fraction;
+    const auto made = [&](Wide a, Wide b, int up) {
+      if (!steps) return quantised(a, b, up, drive);
+      if (output == "projected") a *= relaxation, b *= 16;
+      return scaled(a, b, up, drive.rounding);
+    };
+    Wide u = 0;
     if (normaliser == "prescaled")
-      u = quantised(s, 1, drive.fraction - sum.fraction, drive);
+      u = made(s, 1, drive.fraction - sum.fraction);
     else if (N != 0 && normaliser == "divider")
-      u = quantised(s, N, places, drive);
+      u = made(s, N, places);
     else if (N != 0) {
       int bits = 0;
       while (N >> bits != 0) ++bits;
       const int exponent = bits + reciprocal_bits - 2;
-      u = quantised(s * ((Wide{1} << exponent) / N), 1, places - exponent, drive);
+      u = made(s * ((Wide{1} << exponent) / N), 1, places - exponent);
     }
-    return std::min(std::max(u, -one), one);
+    return std::min(std::max(u, -far), far);
   }
 
-  /// Returns |Delta V|.
-  Wide fire(std::size_t i, const std::vector<Wide>& seen) {
-    const Wide one = Wide{1} << state.fraction, u = driven(i, accumulate(i, seen));
-    const Wide change =
-        rounded((u >= 0 ? one - V[i] : one + V[i]) * u, Wide{1} << drive.fraction, state.rounding);
-    V[i] += change;
-    show(i);
-    return magnitude(change);
+  Wide output_after(std::size_t i, Wide u) const {
+    if (output == "projected")
+      return in_box(V[i] + scaled(u, 1, state.fraction - drive.fraction, state.rounding));
+    if (output == "momentum")
+      return in_box(Y[i] + scaled(u, 1, state.fraction - drive.fraction, state.rounding));
+    const Wide one = Wide{1} << state.fraction;
+    return V[i] + scaled((u >= 0 ? one - V[i] : one + V[i]) * u, 1, -drive.fraction, state.rounding);
   }
 
-  // ---- cycles ----
-
-  long beats(std::size_t taps) const { return (static_cast<long>(taps) + lanes - 1) / lanes; }
-  long stage() const {                // S
-    if (output == "binary") return 2; // the sign; V
-    const long normalise = normaliser == "prescaled"    ? 1
-                           : normaliser == "reciprocal" ? 2
-                                                        : drive.fraction + 2;
-    return normalise + 2 + pipeline;
-  }
-  long prepare() const {
-    if (output == "binary" || normaliser == "prescaled") return 0;
-    const long divide = normaliser == "reciprocal" ? reciprocal_bits + 1 : 0;
-    if (elements == 0) return beats(longest()) + divide;
-    std::vector<std::vector<long>> rounds;
-    for (const auto& phase : phases)
-      for (const auto& round : folded(phase)) rounds.push_back(round);
-    return length_of(rounds, divide == 0 && stages == "one" ? 1 : divide);
-  }
-  long length(const std::vector<long>& phase) const {
-    if (elements > 0) return length_of(folded(phase), stage());
-    std::size_t taps = 0;
-    for (long i : phase) taps = std::max(taps, row[static_cast<std::size_t>(i)].size());
-    return beats(taps) + stage();
+  void fire(std::size_t i, const std::vector<Wide>& seen) {
+    const Wide bound = Wide{1} << link.fraction, s = accumulate(i, seen);
+    const bool held = (seen[i] == bound && s >= 0) || (seen[i] == -bound && s <= 0);
+    const Wide after = output_after(i, driven(i, s));
+    moves[i] = after - V[i];
+    V[i] = after;
+    show(i, after);
+    largest_move = std::max(largest_move, magnitude(moves[i]));
+    if (by_sum && !held) largest_sum = std::max(largest_sum, magnitude(s));
+    along += s > 0 ? moves[i] : s < 0 ? -moves[i] : 0;
   }
 
-  /// Rounds of a phase that shares elements.
-  std::vector<std::vector<long>> folded(std::vector<long> phase) const {
-    const auto length_of_row = [this](long i) { return row[static_cast<std::size_t>(i)].size(); };
-    std::sort(phase.begin(), phase.end(), [&](long a, long b) {
-      return length_of_row(a) != length_of_row(b) ? length_of_row(a) > length_of_row(b) : a < b;
-    });
-    std::vector<std::vector<long>> rounds;
-    for (std::size_t k = 0; k < phase.size(); ++k) {
-      if (k % static_cast<std::size_t>(elements) == 0) rounds.emplace_back();
-      rounds.back().push_back(phase[k]);
+  /// The check of a sweep.
+  void look_ahead() {
+    const bool restart = along < 0;
+    if (output == "momentum") {
+      for (std::size_t i = 0; i < V.size(); ++i) {
+        const Wide more = scaled(table[entry] * moves[i], 1, -15, state.rounding);
+        Y[i] = restart ? V[i] : in_box(V[i] + more);
+        show(i, Y[i]);
+      }
+      entry = std::min(restart ? std::size_t{1} : entry + 1, table.size() - 1);
     }
-    return rounds;
-  }
-  long length_of(const std::vector<std::vector<long>>& rounds, long depth) const {
-    long cycles = 1, wait = 0;
-    for (const auto& round : rounds) {
-      cycles += std::max(beats(row[static_cast<std::size_t>(round[0])].size()), wait);
-      wait = stages == "one" ? static_cast<long>(round.size()) : depth;
-    }
-    return cycles + (stages == "one" ? wait - 1 : 0) + depth;
   }
 };
 
 long faulty_output = 0, outputs = 0;
 
+bool is_over(const Core& core, Wide first_sum) {
+  if (!core.by_sum) return core.largest_move <= core.threshold;
+  return core.largest_sum <= std::max(core.sum_threshold, core.share > 0 ? first_sum >> core.share : 0);
+}
+
 void answer(Core& core, std::ostream& out) {
   long cycle = 1 + core.prepare(), sweep = 0;
-  Wide largest = 0;
+  Wide first_sum = 0;
+  bool over = false;
   do {
-    sweep += 1, largest = 0;
+    sweep += 1, core.largest_move = core.largest_sum = core.along = 0;
     for (std::size_t k = 0; k < core.phases.size(); ++k) {
       const std::vector<Wide> seen = core.L; // by all that fire together
       cycle += core.length(core.phases[k]);
       out << "fire " << sweep << ' ' << k << ' ' << cycle - 1;
       for (long i : core.phases[k]) {
-        largest = std::max(largest, core.fire(static_cast<std::size_t>(i), seen));
+        core.fire(static_cast<std::size_t>(i), seen);
         const bool fault = ++outputs == faulty_output;
         out << ' ' << static_cast<long>(core.V[static_cast<std::size_t>(i)]) + fault;
       }
       out << '\n';
     }
     cycle += 1;
-  } while (largest > core.threshold && sweep < core.max_sweeps);
-  out << "end " << sweep << ' ' << (largest <= core.threshold) << ' ' << static_cast<long>(largest) << ' '
-      << cycle << '\n';
+    core.look_ahead();
+    if (sweep == 1) first_sum = core.largest_sum;
+    over = is_over(core, first_sum);
+  } while (!over && sweep < core.max_sweeps);
+  out << "end " << sweep << ' ' << over << ' ' << static_cast<long>(core.largest_move) << ' '
+      << static_cast<long>(core.largest_sum) << ' ' << cycle << '\n';
 }
 
 void read_neuron(Core& core, std::istream& words) {
@@ -176,7 +168,9 @@ void read_neuron(Core& core, std::istream& words) {
   core.row.emplace_back();
   for (long w = 0; words >> w;) core.row.back().push_back(low_bits(w, core.weight.width));
   core.L.push_back(0);
-  core.show(core.L.size() - 1);
+  core.show(core.L.size() - 1, core.V.back());
+  core.Y.push_back(core.V.back());
+  core.moves.push_back(0);
 }
 
 std::vector<long> list(std::istream& words) {
@@ -200,6 +194,16 @@ void take_line(Core& core, const std::string& line) {
   if (key == "elements") words >> core.elements;
   if (key == "stages") words >> core.stages;
   if (key == "pipeline") words >> core.pipeline;
+  if (key == "relaxation") words >> core.relaxation;
+  if (key == "stop") words >> word, core.by_sum = word == "sum";
+  if (key == "share") words >> core.share;
+  if (key == "sum_threshold") {
+    unsigned long whole = 0;
+    words >> whole;
+    core.sum_threshold = whole;
+  }
+  if (key == "momentum")
+    for (long m = 0; words >> m;) core.table.push_back(low_bits(m, 16));
   if (key == "cells") words >> core.cells;
   if (key == "neurons_per_cell") words >> core.per_cell;
   if (key == "threshold") words >> core.threshold;

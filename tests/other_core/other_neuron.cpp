@@ -65,43 +65,79 @@ struct Neuron {
     return s;
   }
 
+  bool is(const char* output) const { return keys.at("output") == output; }
+  bool steps() const { return is("projected") || is("momentum"); }
+
   Wide norm() {
-    if (keys.at("output") == "binary" || keys.at("normaliser") == "prescaled") return put("norm", 0);
+    if (is("binary") || keys.at("normaliser") == "prescaled") return put("norm", 0);
     const int unit = std::max(weight.fraction, bias.fraction);
-    Wide N = magnitude(cells["bias"][0]) << (unit - bias.fraction);
-    for (Wide w : cells["weight"]) N += magnitude(w) << (unit - weight.fraction);
+    const auto in_units = [&](Wide w) { return magnitude(w) << (unit - weight.fraction); };
+    if (is("projected"))
+      return put("norm", in_units(cells["weight"].at(static_cast<std::size_t>(cells["own"][0]))));
+    Wide N = is("momentum") ? 0 : magnitude(cells["bias"][0]) << (unit - bias.fraction);
+    for (Wide w : cells["weight"]) N += in_units(w);
     return put("norm", N);
+  }
+
+  Wide far() const { return (Wide{1} << drive.fraction) * (is("projected") ? 2 : 1); }
+  static Wide within(Wide x, Wide most) { return std::min(std::max(x, -most), most); }
+
+  // a / b * 2^places, with omega where there is one: a code of the drive, or held before it is one.
+  Wide drive_code(Wide a, Wide b, int places) const {
+    if (!steps()) return quantised(a, b, places, drive);
+    if (is("projected")) a *= std::stoi(keys.at("relaxation")), b *= 16;
+    return within(scaled(a, b, places, drive.rounding), far());
   }
 
   // u before the limiter.
   Wide ratio(Wide s, Wide N) {
-    const Wide one = Wide{1} << drive.fraction;
     const int places = std::max(weight.fraction, bias.fraction) + drive.fraction - sum.fraction;
     put("reciprocal", 0), put("places", 0);
-    if (keys.at("output") == "binary") return put("ratio", s > 0 ? one : s < 0 ? -one : 0);
+    if (is("binary") || (steps() && N <= 0)) return put("ratio", s > 0 ? far() : s < 0 ? -far() : 0);
     if (keys.at("normaliser") == "prescaled")
       return put("ratio", quantised(s, 1, drive.fraction - sum.fraction, drive));
     if (N <= 0) return put("ratio", 0);
-    if (keys.at("normaliser") == "divider") return put("ratio", quantised(s, N, places, drive));
+    if (keys.at("normaliser") == "divider") return put("ratio", drive_code(s, N, places));
     int bits = 0;
     while (N >> bits != 0) ++bits;
     const int exponent = bits + reciprocal_bits - 2;
     const Wide r = put("reciprocal", (Wide{1} << exponent) / N);
     const Wide down = put("places", exponent - places);
-    return put("ratio", quantised(s * r, 1, static_cast<int>(-down), drive));
+    return put("ratio", drive_code(s * r, 1, static_cast<int>(-down)));
+  }
+
+  // A step by u itself, from V or from Y.
+  Wide step(Wide from, Wide u) const {
+    return within(from + scaled(u, 1, state.fraction - drive.fraction, state.rounding),
+                  Wide{1} << state.fraction);
   }
 
   void fire() {
     const Wide s = accumulate(), before = cells["state"][0];
-    const Wide limit = Wide{1} << drive.fraction, one = Wide{1} << state.fraction;
-    const Wide u = put("drive", std::min(std::max(ratio(s, norm()), -limit), limit));
-    const Wide R = put("pull", u >= 0 ? one - before : one + before);
-    const Wide product = put("product", R * u);
-    const Wide change = put("change", rounded(product, Wide{1} << drive.fraction, state.rounding));
-    const Wide after = put("state_after", before + change);
-    put("link_after", quantised(after, 1, link.fraction - state.fraction, link));
+    const Wide u = put("drive", within(ratio(s, norm()), far()));
+    put("pull", 0), put("product", 0), put("extrapolated_after", 0);
+    if (is("momentum"))
+      look_ahead(before, step(cells["extrapolated"][0], u));
+    else if (is("projected"))
+      show(put("state_after", before + put("change", step(before, u) - before)));
+    else
+      show(put("state_after", before + put("change", pulled(before, u))));
     firing += 1;
   }
+
+  Wide pulled(Wide before, Wide u) {
+    const Wide one = Wide{1} << state.fraction, R = put("pull", u >= 0 ? one - before : one + before);
+    return rounded(put("product", R * u), Wide{1} << drive.fraction, state.rounding);
+  }
+
+  void look_ahead(Wide before, Wide to) {
+    const Wide change = put("change", to - before), after = put("state_after", before + change);
+    const Wide product = put("product", cells["momentum"][0] * change);
+    show(put("extrapolated_after",
+             within(after + rounded(product, Wide{1} << 15, state.rounding), Wide{1} << state.fraction)));
+  }
+
+  void show(Wide x) { put("link_after", quantised(x, 1, link.fraction - state.fraction, link)); }
 };
 
 /// "weight_3" is cell 3 of column "weight"; "link_after" a column of its own.

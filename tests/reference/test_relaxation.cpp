@@ -55,7 +55,7 @@ TEST(ReferenceRelaxation, BinaryOutputsAreSignsAndStayWhereTheSumIsZero) {
   W(0, 1) = W(1, 0) = 1;
   const Network net = network_of(W, Eigen::Vector3d(-1, 0, 0));
   const auto rest = [&](double V0, double V1, double V2) {
-    return relax(net, one_by_one(3), Eigen::Vector3d(V0, V1, V2), 0, 10, Neuron::binary).V;
+    return relax(net, one_by_one(3), Eigen::Vector3d(V0, V1, V2), 0, 10, {Neuron::binary}).V;
   };
   EXPECT_EQ(rest(0.5, 0.25, -0.375), Eigen::Vector3d(-1, -1, -0.375));
   EXPECT_EQ(rest(1, 1, 0), Eigen::Vector3d(1, 1, 0));

@@ -55,6 +55,22 @@ TEST(Notes, areSilentAboutShippedScenesAndWhatIsWrittenOfThem) {
   }
 }
 
+TEST(Notes, tellWhatAStopAndATableCountWith) {
+  const auto notes = [](const std::string& array, const std::vector<std::string>& overrides) {
+    return read_inputs("flag-400", array, overrides).notes;
+  };
+  EXPECT_THAT(notes("", {"relax.share=0.01"}),
+              ElementsAre("--set: relax.share: no effect here; it counts only with relax.stop = \"sum\""));
+  EXPECT_THAT(notes("", {"relax.share=0.01", "relax.stop=sum"}), IsEmpty());
+  EXPECT_THAT(
+      notes("", {"relax.threshold=0.01", "relax.stop=sum"}),
+      ElementsAre("--set: relax.threshold: no effect here; it counts only with relax.stop = \"change\""));
+  EXPECT_THAT(notes("", {"relax.momentum=[0.5]"}),
+              ElementsAre("--set: relax.momentum: no effect here; it counts only with array.output = "
+                          "\"momentum\""));
+  EXPECT_THAT(notes("descent-momentum", {"relax.momentum=[0.5]"}), IsEmpty());
+}
+
 TEST(Notes, tellKeysOfAnArray) {
   const auto notes = [](const std::string& array, const std::vector<std::string>& overrides) {
     return read_inputs("flag-400", array, overrides).notes;
@@ -65,12 +81,20 @@ TEST(Notes, tellKeysOfAnArray) {
                           "array.normaliser = \"reciprocal\""));
   EXPECT_THAT(notes("", {"array.output=binary", "array.normaliser=divider"}),
               ElementsAre("--set: array.normaliser: no effect here; it counts only with "
-                          "array.output = \"modified\""));
+                          "an array.output other than \"binary\""));
+  EXPECT_THAT(notes("", {"array.relaxation=16"}),
+              ElementsAre("--set: array.relaxation: no effect here; it counts only with "
+                          "array.output = \"projected\""));
+  EXPECT_THAT(notes("descent-projected", {"array.relaxation=16"}), IsEmpty());
+  EXPECT_THAT(notes("", {"array.momentum_entries=7"}),
+              ElementsAre("--set: array.momentum_entries: no effect here; it counts only with "
+                          "array.output = \"momentum\""));
   EXPECT_THAT(notes("", {"array.stages=one"}),
               ElementsAre("--set: array.stages: no effect here; it counts only with array.elements above 0"));
   EXPECT_THAT(notes("", {"array.stages=one", "array.elements=7"}), IsEmpty());
   const Folder temp;
-  for (const char* preset : {"guarded", "descent", "prescaled", "byte", "folded"}) {
+  for (const char* preset :
+       {"guarded", "descent", "prescaled", "byte", "folded", "descent-projected", "descent-momentum"}) {
     const std::string text = input::array_text(read_inputs("flag-400", preset, {}).array);
     EXPECT_THAT(notes(temp.write("a.toml", text), {}), IsEmpty()) << preset;
   }

@@ -1,6 +1,7 @@
 // Scene files: every key arrives, what is left out has its default, names and paths are found.
 #include "sim/input/shipped.h"
 #include "tests/scene/scene_makers.h"
+#include "tests/support/complaint.h"
 
 #include "place.h"
 
@@ -54,6 +55,9 @@ TEST(SceneFile, readsEveryKeyOfTheMotion) {
   EXPECT_EQ(s.relax.threshold, 3e-7);
   EXPECT_EQ(s.relax.max_sweeps, 12);
   EXPECT_EQ(s.relax.expansions, 3);
+  EXPECT_EQ(s.relax.stop, Stop::sum);
+  EXPECT_EQ(s.relax.share, 0.001);
+  EXPECT_THAT(s.relax.momentum, ElementsAre(0, 0.25, 1));
   EXPECT_EQ(s.rival.tolerance, 2e-5);
   EXPECT_THAT(s.force.gravity, ElementsAre(0, 0, -9.81));
   EXPECT_THAT(*s.force.wind, ElementsAre(1e-3, 0.3333333333333333, 5));
@@ -74,6 +78,8 @@ TEST(SceneFile, fillsDefaultsIn) {
   EXPECT_EQ(s.motion.steps, 400);
   EXPECT_EQ(s.probe.gamma, 4000.0);
   EXPECT_EQ(s.relax.max_sweeps, 300);
+  EXPECT_EQ(s.relax.stop, Stop::change);
+  EXPECT_TRUE(s.relax.momentum.empty());
   EXPECT_FALSE(s.force.wind);
   EXPECT_EQ(s.motion.formulation, Formulation::probe);
   EXPECT_EQ(s.incremental.rule, Rule::backward_euler);
@@ -96,6 +102,19 @@ TEST(SceneFile, takesTheEndsOfEveryRange) {
   EXPECT_EQ(s.motion.friction, 0);
   EXPECT_EQ(s.probe.gamma, 0);
   EXPECT_EQ(s.relax.threshold, 0);
+}
+
+TEST(SceneFile, aListOfMomentumFitsTheTableOfItsArray) {
+  const auto read = [](const std::string& list, const std::string& entries) {
+    return complaint([&] {
+      read_inputs("flag-400", "descent-momentum",
+                  {"relax.momentum=" + list, "array.momentum_entries=" + entries});
+    });
+  };
+  EXPECT_EQ(read("[0.5, 0.5]", "2"), "");
+  EXPECT_EQ(read("\"fista\"", "1"), "");
+  EXPECT_EQ(read("[0.5, 0.5]", "1"),
+            "--set: relax.momentum: found 2 numbers, expected at most the 1 of array.momentum_entries");
 }
 
 TEST(SceneFile, pinsComeAloneOrInAList) {

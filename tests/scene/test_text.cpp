@@ -56,6 +56,9 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.relax.threshold, b.relax.threshold);
   EXPECT_EQ(a.relax.max_sweeps, b.relax.max_sweeps);
   EXPECT_EQ(a.relax.expansions, b.relax.expansions);
+  EXPECT_EQ(a.relax.stop, b.relax.stop);
+  EXPECT_EQ(a.relax.share, b.relax.share);
+  EXPECT_EQ(a.relax.momentum, b.relax.momentum);
   EXPECT_EQ(a.rival.tolerance, b.rival.tolerance);
   EXPECT_EQ(a.force.gravity, b.force.gravity);
   EXPECT_EQ(a.force.wind, b.force.wind);

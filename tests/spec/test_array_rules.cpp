@@ -45,14 +45,67 @@ TEST(ArrayRules, PresetsAreFoundByTheirOwnNames) {
   EXPECT_TRUE(preset(default_array().name));
 }
 
-TEST(ArrayRules, DescentMeetsTheConditionsOfItsProof) {
-  const ArraySpec a = descent_array();
-  EXPECT_TRUE(a.exact_accumulator);
-  EXPECT_EQ(a.formats.link, a.formats.state);
-  EXPECT_EQ(a.formats.drive.rounding, Rounding::trn_zero);
-  EXPECT_EQ(a.formats.state.rounding, Rounding::trn_zero);
-  EXPECT_NE(a.normaliser, Normaliser::prescaled);
-  EXPECT_NE(a.schedule, Schedule::synchronous);
+TEST(ArrayRules, DescentMeetsTheConditionsOfItsProofs) {
+  for (const ArraySpec& a : {descent_array(), descent_projected_array(), descent_momentum_array()}) {
+    EXPECT_TRUE(a.exact_accumulator);
+    EXPECT_EQ(a.formats.link, a.formats.state);
+    EXPECT_EQ(a.formats.drive.rounding, Rounding::trn_zero);
+    EXPECT_EQ(a.formats.state.rounding, Rounding::trn_zero);
+    EXPECT_NE(a.normaliser, Normaliser::prescaled);
+    EXPECT_EQ(a.schedule == Schedule::synchronous, a.output == Output::momentum);
+  }
+  EXPECT_EQ(descent_momentum_array().momentum_entries, 1); // the sequence begins with 0
+}
+
+TEST(ArrayRules, MomentumFiresAllAtOnceAndProjectedNever) {
+  const auto fault = [](Output output, Schedule schedule) {
+    return fault_of([&](ArraySpec& a) { a.output = output, a.schedule = schedule; });
+  };
+  const std::string all =
+      ": \"synchronous\" with array.output = \"momentum\": momentum fires all neurons at once";
+  EXPECT_EQ(fault(Output::momentum, Schedule::coloured), "array.schedule: \"coloured\"" + all);
+  EXPECT_EQ(fault(Output::momentum, Schedule::sequential), "array.schedule: \"sequential\"" + all);
+  EXPECT_EQ(fault(Output::momentum, Schedule::synchronous), "");
+  EXPECT_EQ(fault(Output::projected, Schedule::synchronous),
+            "array.schedule: \"synchronous\": \"coloured\" or \"sequential\" with array.output = "
+            "\"projected\": neurons that share a weight fire in turn");
+  EXPECT_EQ(fault(Output::projected, Schedule::coloured), "");
+  EXPECT_EQ(fault(Output::projected, Schedule::sequential), "");
+}
+
+TEST(ArrayRules, StepsFurtherNeedANormaliserInTheCell) {
+  for (const auto& [output, word] :
+       {std::pair(Output::projected, "projected"), {Output::momentum, "momentum"}})
+    for (auto normaliser : {Normaliser::prescaled, Normaliser::reciprocal, Normaliser::divider}) {
+      const std::string fault = fault_of([&, o = output](ArraySpec& a) {
+        a.output = o, a.normaliser = normaliser;
+        if (o == Output::momentum) a.schedule = Schedule::synchronous;
+      });
+      EXPECT_EQ(fault,
+                normaliser != Normaliser::prescaled
+                    ? ""
+                    : "array.normaliser: \"prescaled\": \"reciprocal\" or \"divider\" with array.output = "
+                      "\"" +
+                          std::string(word) + "\": prescaled rows are not symmetric");
+    }
+}
+
+TEST(ArrayRules, StepsFurtherHaveBoundsOfTheirOwn) {
+  for (int k : {0, 32})
+    EXPECT_EQ(fault_of([k](ArraySpec& a) { a.relaxation = k; }),
+              "array.relaxation: " + std::to_string(k) + ": 1 to 31");
+  for (int k : {0, 4097})
+    EXPECT_EQ(fault_of([k](ArraySpec& a) { a.momentum_entries = k; }),
+              "array.momentum_entries: " + std::to_string(k) + ": 1 to 4096");
+  const auto pipeline = [](ArraySpec a, int registers) {
+    a.pipeline = registers;
+    const auto fault = validate(a, 27);
+    return fault ? fault->key + ": " + fault->found + ": " + fault->expected : "";
+  };
+  EXPECT_EQ(pipeline(descent_projected_array(), 2), "");
+  EXPECT_EQ(pipeline(descent_projected_array(), 3), "array.pipeline: 3: 0 to 2 with projected outputs");
+  EXPECT_EQ(pipeline(descent_momentum_array(), 3), "");
+  EXPECT_EQ(pipeline(descent_momentum_array(), 4), "array.pipeline: 4: 0 to 3 with momentum outputs");
 }
 
 TEST(ArrayRules, WidthsAreFourToThirtyTwo) {
@@ -220,6 +273,10 @@ TEST(ArrayRules, PackingCountsWhereSomethingCanBePacked) {
   EXPECT_TRUE(counts([](ArraySpec& a) {
     a.formats.weight = format(32, 1);
     a.formats.bias = format(16, 1);
+  }));
+  EXPECT_TRUE(counts([](ArraySpec& a) { // the table of m
+    a.formats.weight = format(32, 1);
+    a.output = Output::momentum;
   }));
 }
 

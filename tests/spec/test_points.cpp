@@ -33,6 +33,9 @@ TEST(Points, OfTheDefaultArrayByHand) {
   EXPECT_EQ(p.ratio_up, 16 + 15 - 29);
   EXPECT_EQ(p.scaled_down, 29 - 16);
   EXPECT_EQ(p.link_down, 22 - 14);
+  EXPECT_EQ(p.step_down, 16 - 22); // the state is finer: nothing is lost
+  EXPECT_EQ(relaxation_down, 4);
+  EXPECT_EQ(momentum_down, 15);
 }
 
 TEST(Points, OfRandomArraysKeepTheValueOfACode) {
@@ -51,6 +54,7 @@ TEST(Points, OfRandomArraysKeepTheValueOfACode) {
     EXPECT_EQ(moved_up(sum / norm, p.ratio_up), last_place(f.drive));
     EXPECT_EQ(moved_up(last_place(f.drive), p.scaled_down), sum);
     EXPECT_EQ(moved_up(last_place(f.link), p.link_down), last_place(f.state));
+    EXPECT_EQ(moved_up(last_place(f.state), p.step_down), last_place(f.drive));
   }
 }
 

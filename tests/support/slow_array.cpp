@@ -23,25 +23,31 @@ class SlowArray {
       state_.push_back(v > one ? one : v < -one ? -one : v);
       link_.push_back(link_code(job.array.formats, state_.back()));
     }
+    ahead_ = state_;
+    moved_.assign(state_.size(), 0);
+    for (std::int32_t word : job.momentum) table_.push_back(kept_code(word, spec::momentum_format));
   }
 
-  /// A sweep; returns the largest |Delta V|.
-  std::int64_t sweep(const spec::Phases& phases) {
-    std::int64_t largest = 0;
+  struct Largest {
+    std::int64_t change = 0;
+    std::uint64_t sum = 0; ///< of the neurons that may still move
+  };
+
+  Largest sweep(const spec::Phases& phases) {
+    largest_ = {};
+    agreement_ = 0;
     for (const auto& phase : phases) {
       const std::vector<std::int64_t> before = link_; // what everybody in this phase reads
-      for (std::uint32_t neuron : phase) {
-        const std::int64_t moved = fire(neuron, before);
-        largest = std::max(largest, moved < 0 ? -moved : moved);
-      }
+      for (std::uint32_t neuron : phase) fire(neuron, before);
     }
-    return largest;
+    if (!table_.empty()) check();
+    return largest_;
   }
 
   std::vector<std::int32_t> output() const { return {state_.begin(), state_.end()}; }
 
  private:
-  std::int64_t fire(std::uint32_t neuron, const std::vector<std::int64_t>& before) {
+  void fire(std::uint32_t neuron, const std::vector<std::int64_t>& before) {
     const spec::Topology& t = job_.topology;
     const std::uint32_t cell = neuron / t.neurons_per_cell, p = neuron % t.neurons_per_cell;
     std::vector<std::int64_t> weight, link;
@@ -56,16 +62,51 @@ class SlowArray {
       }
     const std::int64_t bias = kept_code(job_.bias[neuron], job_.array.formats.bias);
     const std::int64_t s = accumulate(job_.array, accumulator_, weight, link, bias);
-    const std::int64_t u = drive(job_.array, accumulator_, s, row_sum(job_.array, weight, bias));
-    const std::int64_t moved = change(job_.array.formats, state_[neuron], u);
-    state_[neuron] += moved;
-    link_[neuron] = link_code(job_.array.formats, state_[neuron]);
-    return moved;
+    note_sum(s, before[neuron]);
+    move(neuron, s, drive(job_.array, accumulator_, s, divisor(job_.array, weight, p, bias)));
+  }
+
+  /// Of a neuron that may still move; `shown`: what links showed of it as s was summed.
+  void note_sum(std::int64_t s, std::int64_t shown) {
+    const std::int64_t one = std::int64_t{1} << job_.array.formats.link.fraction_bits();
+    const bool held = (shown == one && s >= 0) || (shown == -one && s <= 0);
+    if (!held) largest_.sum = std::max(largest_.sum, static_cast<std::uint64_t>(magnitude_of(s)));
+  }
+
+  void move(std::uint32_t neuron, std::int64_t s, std::int64_t u) {
+    const spec::Formats& f = job_.array.formats;
+    const bool momentum = job_.array.output == spec::Output::momentum;
+    const std::int64_t before = state_[neuron], from = momentum ? ahead_[neuron] : before;
+    std::int64_t& after = state_[neuron];
+    if (momentum || job_.array.output == spec::Output::projected)
+      after = stepped(f, from, u);
+    else
+      after += change(f, before, u);
+    moved_[neuron] = after - before;
+    link_[neuron] = link_code(f, after);
+    largest_.change = std::max(largest_.change, moved_[neuron] < 0 ? -moved_[neuron] : moved_[neuron]);
+    agreement_ += s > 0 ? moved_[neuron] : s < 0 ? -moved_[neuron] : 0;
+  }
+
+  /// Behind a sweep with momentum: neurons see where their moves lead, or, after a restart, where they are.
+  void check() {
+    const bool restart = agreement_ < 0;
+    const std::int64_t m = table_[entry_];
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      ahead_[i] = restart ? state_[i] : looked_ahead(job_.array.formats, state_[i], moved_[i], m);
+      link_[i] = link_code(job_.array.formats, ahead_[i]);
+    }
+    if (restart) entry_ = 0;
+    if (entry_ + 1 < table_.size()) entry_ += 1;
   }
 
   const ArrayJob& job_;
   spec::NumberFormat accumulator_;
   std::vector<std::int64_t> state_, link_;
+  std::vector<std::int64_t> ahead_, moved_, table_; ///< Y; of V in this sweep; m
+  std::size_t entry_ = 0;
+  Largest largest_;
+  std::int64_t agreement_ = 0; ///< moves of this sweep, counted along their sums
 };
 
 std::uint64_t groups(std::size_t taps, int lanes) {
@@ -103,10 +144,16 @@ ArrayResult run_slow_array(const ArrayJob& job, Keep keep) {
   SlowArray array(job);
   const spec::Phases phases = spec::phases_of(job.topology, job.array.schedule);
   ArrayResult result;
+  std::uint64_t first = 0;
   while (!result.converged && (result.sweeps == 0 || result.sweeps < job.max_sweeps)) {
-    result.largest_change = static_cast<std::uint32_t>(array.sweep(phases));
+    const auto [change, sum] = array.sweep(phases);
     result.sweeps += 1;
-    result.converged = result.largest_change <= job.threshold;
+    result.largest_change = static_cast<std::uint32_t>(change);
+    result.largest_sum = job.rule.by_sum ? sum : 0;
+    if (result.sweeps == 1) first = sum;
+    const std::uint64_t share = job.rule.share == 0 ? 0 : first >> job.rule.share;
+    result.converged =
+        job.rule.by_sum ? sum <= std::max(job.rule.floor, share) : result.largest_change <= job.threshold;
     if (keep == Keep::last_sweep) result.history.clear();
     result.history.push_back(array.output());
   }

@@ -15,6 +15,7 @@ struct ArrayResult {
   std::uint32_t sweeps = 0;
   bool converged = false;
   std::uint32_t largest_change = 0; ///< of the last sweep
+  std::uint64_t largest_sum = 0;    ///< of the last sweep; 0 where nobody stops by it
   std::uint64_t cycles = 0;
 
   const std::vector<std::int32_t>& output() const { return history.back(); }

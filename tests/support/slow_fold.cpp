@@ -62,10 +62,12 @@ void step_through(const ArrayJob& job, const std::vector<Round>& rounds, std::ui
 
 std::uint64_t slow_stage(const spec::ArraySpec& a) {
   if (a.output == spec::Output::binary) return 2;
+  const int quotient = a.formats.drive.fraction_bits() + (a.output == spec::Output::projected ? 3 : 2);
   const int normalise = a.normaliser == spec::Normaliser::prescaled    ? 1
                         : a.normaliser == spec::Normaliser::reciprocal ? 2
-                                                                       : a.formats.drive.fraction_bits() + 2;
-  return static_cast<std::uint64_t>(normalise + 2 + a.pipeline);
+                                                                       : quotient;
+  const int output = a.output == spec::Output::projected ? 1 : 2;
+  return static_cast<std::uint64_t>(normalise + output + a.pipeline);
 }
 
 SlowSweep slow_folded_sweep(const ArrayJob& job) {

@@ -19,24 +19,56 @@ Wide row_unit(const spec::Formats& f) {
   return static_cast<Wide>(std::max(f.weight.fraction_bits(), f.bias.fraction_bits()));
 }
 
+/// omega of `projected`, as a factor and the places that the sum moves down by then; 1 elsewhere.
+struct Factor {
+  Wide times = 1;
+  int places = 0;
+};
+
+Factor factor_of(const spec::ArraySpec& array) {
+  if (array.output != spec::Output::projected) return {};
+  return {static_cast<Wide>(array.relaxation), 4};
+}
+
 /// s / N: both brought to the same unit, the quotient to the drive's last place.
-std::int64_t divide(const spec::Formats& f, const spec::NumberFormat& accumulator, std::int64_t s, Wide n) {
+Cut divided(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s, Wide n) {
+  const spec::Formats& f = array.formats;
+  const Factor factor = factor_of(array);
   const int to_unit = static_cast<int>(row_unit(f)) - accumulator.fraction_bits();
-  Wide numerator = magnitude_of(s) << f.drive.fraction_bits(), denominator = n;
+  Wide numerator = magnitude_of(s) * factor.times << f.drive.fraction_bits();
+  Wide denominator = n << factor.places;
   if (to_unit > 0)
     numerator <<= to_unit;
   else
     denominator <<= -to_unit;
-  return quantise(cut_quotient(numerator, denominator), s < 0, f.drive);
+  return cut_quotient(numerator, denominator);
 }
 
 /// s r 2^-(B + M - 2), s in the unit of N; r = floor(2^(B + M - 2) / N).
-std::int64_t multiply_by_reciprocal(const spec::ArraySpec& array, const spec::NumberFormat& accumulator,
-                                    std::int64_t s, Wide n) {
+Cut multiplied(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s, Wide n) {
+  const Factor factor = factor_of(array);
   const int scale = bit_length(n) + array.reciprocal_bits - 2;
-  const __int128 product = multiply(s, reciprocal_of(array, n));
-  const int fraction = accumulator.fraction_bits() - static_cast<int>(row_unit(array.formats)) + scale;
-  return quantise_code(product, fraction, array.formats.drive);
+  const Wide product = magnitude_of(multiply(s, reciprocal_of(array, n))) * factor.times;
+  const int fraction =
+      accumulator.fraction_bits() - static_cast<int>(row_unit(array.formats)) + scale + factor.places;
+  return cut_bits(product, fraction, array.formats.drive.fraction_bits());
+}
+
+std::int64_t held(std::int64_t x, std::int64_t most) {
+  return x > most ? most : x < -most ? -most : x;
+}
+
+/// Rounded, then held within `most` last places: no overflow mode has a say.
+std::int64_t round_and_hold(const Cut& cut, bool negative, spec::Rounding mode, std::int64_t most) {
+  const Wide size = round_cut(cut, negative, mode);
+  const bool over = cut.beyond || size > static_cast<Wide>(most);
+  return static_cast<std::int64_t>(wide_with_sign(over ? static_cast<Wide>(most) : size, negative));
+}
+
+/// code * 2^-fraction in last places of the state, by its rounding mode.
+std::int64_t in_state_places(const spec::Formats& f, std::int64_t code, int fraction) {
+  const Cut cut = cut_bits(magnitude_of(code), fraction, f.state.fraction_bits());
+  return static_cast<std::int64_t>(wide_with_sign(round_cut(cut, code < 0, f.state.rounding), code < 0));
 }
 
 } // namespace
@@ -78,26 +110,40 @@ std::int64_t reciprocal_of(const spec::ArraySpec& array, Wide n) {
       cut_quotient(Wide{1} << (bit_length(n) + array.reciprocal_bits - 2), n).whole);
 }
 
+Wide divisor(const spec::ArraySpec& array, const std::vector<std::int64_t>& weight, std::size_t own,
+             std::int64_t bias) {
+  switch (array.output) {
+  case spec::Output::projected:
+    return row_sum(array, {weight[own]}, 0);
+  case spec::Output::momentum:
+    return row_sum(array, weight, 0);
+  default:
+    return row_sum(array, weight, bias);
+  }
+}
+
+std::int64_t most_drive(const spec::ArraySpec& array) {
+  const std::int64_t one = std::int64_t{1} << array.formats.drive.fraction_bits();
+  return array.output == spec::Output::projected ? 2 * one : one;
+}
+
 std::int64_t unlimited_drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator,
                              std::int64_t s, Wide n) {
-  const spec::Formats& f = array.formats;
-  const std::int64_t one = std::int64_t{1} << f.drive.fraction_bits();
-  if (array.output == spec::Output::binary) return s == 0 ? 0 : s > 0 ? one : -one;
-  std::int64_t u = 0;
+  const spec::NumberFormat& format = array.formats.drive;
+  const std::int64_t most = most_drive(array), sign = s == 0 ? 0 : s > 0 ? 1 : -1;
+  const bool steps = array.output == spec::Output::projected || array.output == spec::Output::momentum;
+  if (array.output == spec::Output::binary || (steps && n == 0)) return sign * most;
   if (array.normaliser == spec::Normaliser::prescaled)
-    u = quantise_code(s, accumulator.fraction_bits(), f.drive);
-  else if (n != 0 && array.normaliser == spec::Normaliser::divider)
-    u = divide(f, accumulator, s, n);
-  else if (n != 0)
-    u = multiply_by_reciprocal(array, accumulator, s, n);
-  return u;
+    return quantise_code(s, accumulator.fraction_bits(), format);
+  if (n == 0) return 0;
+  const Cut cut = array.normaliser == spec::Normaliser::divider ? divided(array, accumulator, s, n)
+                                                                : multiplied(array, accumulator, s, n);
+  return steps ? round_and_hold(cut, s < 0, format.rounding, most) : quantise(cut, s < 0, format);
 }
 
 std::int64_t drive(const spec::ArraySpec& array, const spec::NumberFormat& accumulator, std::int64_t s,
                    Wide n) {
-  const std::int64_t one = std::int64_t{1} << array.formats.drive.fraction_bits();
-  const std::int64_t u = unlimited_drive(array, accumulator, s, n);
-  return u > one ? one : u < -one ? -one : u;
+  return held(unlimited_drive(array, accumulator, s, n), most_drive(array));
 }
 
 std::int64_t change(const spec::Formats& f, std::int64_t v, std::int64_t u) {
@@ -107,6 +153,19 @@ std::int64_t change(const spec::Formats& f, std::int64_t v, std::int64_t u) {
   const Cut cut = cut_bits(magnitude_of(product), f.drive.fraction_bits(), 0);
   return static_cast<std::int64_t>(
       wide_with_sign(round_cut(cut, product < 0, f.state.rounding), product < 0));
+}
+
+std::int64_t stepped(const spec::Formats& f, std::int64_t from, std::int64_t u) {
+  const std::int64_t one = std::int64_t{1} << f.state.fraction_bits();
+  return held(from + in_state_places(f, u, f.drive.fraction_bits()), one);
+}
+
+std::int64_t looked_ahead(const spec::Formats& f, std::int64_t after, std::int64_t moved, std::int64_t m) {
+  const std::int64_t one = std::int64_t{1} << f.state.fraction_bits();
+  const auto product = static_cast<std::int64_t>(multiply(moved, m));
+  return held(
+      after + in_state_places(f, product, f.state.fraction_bits() + spec::momentum_format.fraction_bits()),
+      one);
 }
 
 std::int64_t link_code(const spec::Formats& f, std::int64_t v) {

@@ -56,6 +56,8 @@ inline std::vector<WindowRow> window_rows(const spec::Topology& t, const spec::A
     if (row.name == "BIAS") row.width = a.formats.bias.width;
     if (row.name == "OUTPUT") row.width = a.formats.state.width;
     if (row.name == "WEIGHT") row.width = a.formats.weight.width;
+    if (row.name == "MOMENTUM") row.width = 16;
+    if (row.name == "MOMENTUM" && a.output == spec::Output::momentum) row.codes = a.momentum_entries;
     if (row.name == "WEIGHT")
       for (std::size_t c = 0; c < t.cells(); ++c) row.codes += t.neurons_per_cell * t.taps(c);
     const std::uint64_t share = !a.packing || row.width > 16 ? 1 : row.width > 8 ? 2 : 4;
@@ -89,6 +91,8 @@ inline ArrayJob lively_job(std::uint64_t seed, const spec::ArraySpec& array, con
         dice.between(array.formats.bias.min_raw() / 64, array.formats.bias.max_raw() / 64));
   const std::int64_t one = array.formats.state.one_raw();
   for (auto& v : job.start) v = static_cast<std::int32_t>(dice.between(-one / 2, one / 2));
+  for (std::size_t k = 0; k < cosim::table_entries(array); ++k)
+    job.momentum.push_back(static_cast<std::int32_t>(dice.between(-16000, 32767)));
   job.threshold = 0;
   job.max_sweeps = 3;
   return job;

@@ -103,9 +103,9 @@ spec::ArraySpec stage_spec(Normaliser normaliser, Rounding rounding) {
 std::int64_t fired(OutputStage& stage, std::int64_t v, std::int64_t sum) {
   stage.load(static_cast<std::int32_t>(v));
   stage.normalise(sum);
-  stage.bias_by_r(stage.drive_raw());
+  stage.find_change(stage.drive_raw());
   const std::int64_t moved = stage.publish();
-  EXPECT_EQ(moved, std::abs(stage.state_raw() - v));
+  EXPECT_EQ(moved, stage.state_raw() - v);
   return stage.state_raw();
 }
 
@@ -196,12 +196,71 @@ TEST(Stage, TheReciprocalIsNeverTooLarge) {
 
 TEST(Detector, KeepsTheLargestOfASweep) {
   systemc::ConvergenceDetector d("d");
-  for (std::int64_t change : {3, 7, 0, 5}) d.report(change);
+  for (std::int64_t change : {3, -7, 0, 5}) d.report(1, change, false);
   EXPECT_EQ(d.largest_change(), 7);
+  EXPECT_EQ(d.largest_sum(), 0); // nobody asked
   d.begin_sweep();
   EXPECT_EQ(d.largest_change(), 0);
-  d.report(std::int64_t{1} << 31); // V from -1 to 1 in 32 bits
+  d.report(-1, std::int64_t{1} << 31, false); // V from -1 to 1 in 32 bits
   EXPECT_EQ(d.largest_change(), std::int64_t{1} << 31);
+}
+
+TEST(Detector, KeepsTheLargestSumOfNeuronsThatMayMove) {
+  systemc::ConvergenceDetector d("d");
+  d.begin_run(true);
+  d.begin_sweep();
+  EXPECT_EQ(d.largest_sum(), 0);
+  d.report(-9, -1, false);
+  d.report(8, 1, false);
+  d.report(100, 0, true); // held
+  EXPECT_EQ(d.largest_sum(), 9);
+  d.report(-(std::int64_t{1} << 61), 0, false); // the least code of the widest accumulator
+  EXPECT_EQ(d.largest_sum(), std::int64_t{1} << 61);
+  d.begin_sweep();
+  EXPECT_EQ(d.largest_sum(), 0);
+  d.begin_run(false);
+  d.report(7, 1, false);
+  EXPECT_EQ(d.largest_sum(), 0);
+}
+
+TEST(Detector, AddsWhatGoesWithTheSumsAndAgainstThem) {
+  systemc::ConvergenceDetector d("d");
+  d.report(5, 3, false);
+  d.report(-1, -2, false);
+  d.report(0, 100, false); // asked for nothing
+  EXPECT_EQ(d.way(), 5);
+  d.report(1, -4, true); // held ones count
+  d.report(-1, 2, false);
+  EXPECT_EQ(d.way(), -1);
+  d.begin_sweep();
+  EXPECT_EQ(d.way(), 0);
+  for (int k = 0; k < 100; ++k) d.report(-1, std::int64_t{1} << 31, false);
+  EXPECT_EQ(d.way(), -100 * (std::int64_t{1} << 31));
+}
+
+TEST(MomentumTable, TakesEntryAfterEntryAndHoldsTheLast) {
+  systemc::MomentumTable none("none", 0), one("one", 1), three("three", 3);
+  EXPECT_FALSE(none.exists());
+  EXPECT_EQ(none.now(), 0);
+  for (int k = 0; k < 3; ++k) three.set_code(static_cast<std::size_t>(k), 10 * (k + 1));
+  const auto next = [&](bool restart) {
+    three.end_sweep(restart);
+    return three.now();
+  };
+  EXPECT_EQ(three.now(), 10);
+  EXPECT_EQ(next(false), 20);
+  EXPECT_EQ(next(false), 30);
+  EXPECT_EQ(next(false), 30);
+  EXPECT_EQ(next(true), 20); // the sweep that ends so counts as the first one
+  EXPECT_EQ(next(true), 20);
+  EXPECT_EQ(next(false), 30);
+  three.begin_run();
+  EXPECT_EQ(three.now(), 10);
+  one.set_code(0, -5);
+  for (bool restart : {false, true}) {
+    one.end_sweep(restart);
+    EXPECT_EQ(one.now(), -5);
+  }
 }
 
 TEST(Link, ShowsWritesAfterTheUpdateAndLoadsAtOnce) {

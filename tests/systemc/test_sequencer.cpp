@@ -45,11 +45,13 @@ class Listener : public sc_core::sc_module {
 
 struct Bench {
   Bench(const std::string& name, const spec::CycleModel& c)
-      : cycles(c), detector(("detector_" + name).c_str()),
-        sequencer(("sequencer_" + name).c_str(), cycles, sc_core::sc_time(10.0, sc_core::SC_NS), detector),
+      : cycles(c), detector(("detector_" + name).c_str()), momentum(("momentum_" + name).c_str(), 0),
+        sequencer(("sequencer_" + name).c_str(), cycles, sc_core::sc_time(10.0, sc_core::SC_NS), detector,
+                  momentum),
         listener(("listener_" + name).c_str(), sequencer, cycles.phase.size()) {}
   const spec::CycleModel cycles;
   systemc::ConvergenceDetector detector;
+  systemc::MomentumTable momentum;
   Sequencer sequencer;
   Listener listener;
 };
@@ -64,7 +66,7 @@ spec::CycleModel model(std::uint64_t prepare, const std::vector<std::uint64_t>& 
 }
 
 void run(Bench& b, std::uint64_t sweeps) {
-  b.sequencer.begin_run(0, sweeps, sc_core::SC_ZERO_TIME);
+  b.sequencer.begin_run(0, sweeps, {}, sc_core::SC_ZERO_TIME);
   sc_core::sc_start(sc_core::sc_time(10.0, sc_core::SC_NS) * static_cast<double>(b.cycles.run(sweeps) + 2));
 }
 

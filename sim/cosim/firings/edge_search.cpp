@@ -25,6 +25,7 @@ class EdgeSearch {
     all_of_norm();
     ties_of_drive();
     walking_ones();
+    ways_ahead();
     Dice dice(1);
     for (int k = 0; k < random_tries; ++k) offer(random_inputs(dice, shape_, neuron_));
     return std::move(kept_);
@@ -33,8 +34,10 @@ class EdgeSearch {
  private:
   static std::int32_t code(std::int64_t x) { return static_cast<std::int32_t>(x); }
 
+  /// The neuron is tap 0 of its row. Y is V unless it was made otherwise.
   void offer(spec::FiringInputs inputs) {
-    inputs.link[0] = link_of(neuron_, inputs.state);
+    if (!spec::has_momentum(shape_.array)) inputs.extrapolated = inputs.momentum = 0;
+    inputs.link[0] = link_of(neuron_, spec::has_momentum(shape_.array) ? inputs.extrapolated : inputs.state);
     Firing f = fired(shape_, neuron_, std::move(inputs));
     bool wanted = false;
     for (std::size_t e = 0; e < found_.size(); ++e)
@@ -47,8 +50,13 @@ class EdgeSearch {
 
   /// A row of zeros.
   spec::FiringInputs blank(std::int64_t state) const {
-    return {std::vector<std::int32_t>(shape_.taps, 0), std::vector<std::int32_t>(shape_.taps, 0), 0,
-            code(state)};
+    return {std::vector<std::int32_t>(shape_.taps, 0),
+            std::vector<std::int32_t>(shape_.taps, 0),
+            0,
+            code(state),
+            0,
+            code(state),
+            0};
   }
 
   // Nothing goes in, so V stays, and its link is rounded: the odd halves are ties.
@@ -66,7 +74,7 @@ class EdgeSearch {
         spec::FiringInputs in = blank(sign * one_state_);
         std::fill(in.weight.begin(), in.weight.end(), code(w));
         std::fill(in.link.begin(), in.link.end(), code(w < 0 ? -sign * one_link_ : sign * one_link_));
-        if (w < 0) in.state = -in.state;
+        if (w < 0) in.state = in.extrapolated = -in.state;
         in.bias = code(sign > 0 ? formats_.bias.max_raw() : formats_.bias.min_raw());
         offer(in);
         std::fill(in.weight.begin(), in.weight.end(), 0);
@@ -116,6 +124,20 @@ class EdgeSearch {
           }
   }
 
+  // With momentum. Nothing goes in, so V comes to Y: ways of few places times m of one half, and far ones.
+  void ways_ahead() {
+    if (!spec::has_momentum(shape_.array)) return;
+    const std::int64_t half = spec::momentum_format.one_raw() / 2;
+    for (std::int64_t m : {half, -half, spec::momentum_format.max_raw(), spec::momentum_format.min_raw()})
+      for (std::int64_t way : {1, -1, 3, -3})
+        for (std::int64_t to : {std::int64_t{0}, std::int64_t{one_state_}, -std::int64_t{one_state_}}) {
+          if (std::abs(to - way) > one_state_) continue;
+          spec::FiringInputs in = blank(to - way);
+          in.extrapolated = code(to), in.momentum = code(m);
+          offer(in);
+        }
+  }
+
   const NeuronShape& shape_;
   const levels::OpenNeuron& neuron_;
   const spec::Formats& formats_;
@@ -132,7 +154,7 @@ std::int32_t within(std::int64_t code, std::int64_t bound) {
 } // namespace
 
 std::int32_t link_of(const levels::OpenNeuron& neuron, std::int32_t state) {
-  return neuron({{0}, {0}, 0, state}).link;
+  return neuron({{0}, {0}, 0, state, 0, state, 0}).link;
 }
 
 Firing fired(const NeuronShape& shape, const levels::OpenNeuron& neuron, spec::FiringInputs inputs) {
@@ -165,8 +187,15 @@ spec::FiringInputs random_inputs(Dice& dice, const NeuronShape& shape, const lev
                              link_one));
   }
   in.bias = static_cast<std::int32_t>(dice.code(f.bias));
-  in.state = within(dice.one_in(4) ? dice.between(-1, 1) * one : dice.between(-one, one), one);
-  in.link[0] = link_of(neuron, in.state);
+  const auto output = [&] {
+    return within(dice.one_in(4) ? dice.between(-1, 1) * one : dice.between(-one, one), one);
+  };
+  in.state = output();
+  if (spec::has_momentum(shape.array)) {
+    in.extrapolated = output();
+    in.momentum = static_cast<std::int32_t>(dice.code(spec::momentum_format));
+  }
+  in.link[0] = link_of(neuron, spec::has_momentum(shape.array) ? in.extrapolated : in.state);
   return in;
 }
 

@@ -16,7 +16,7 @@ std::vector<Firing> edge_firings(const NeuronShape& shape, const levels::OpenNeu
 /// Corners far more often than chance would bring them; the neuron is tap 0 of its row.
 spec::FiringInputs random_inputs(Dice& dice, const NeuronShape& shape, const levels::OpenNeuron& neuron);
 
-/// L of a neuron whose V is `state`.
+/// L of a neuron that shows `state`, which is its V or, with momentum, its Y.
 std::int32_t link_of(const levels::OpenNeuron& neuron, std::int32_t state);
 /// The firing of these inputs, with its steps and edges.
 Firing fired(const NeuronShape& shape, const levels::OpenNeuron& neuron, spec::FiringInputs inputs);

@@ -1,5 +1,6 @@
 #include "sim/cosim/firings/firing_columns.h"
 
+#include "rtl_model/spec/points.h"
 #include "sim/cosim/firings/firing_edges.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using Shape = const NeuronShape&;
 std::vector<FiringColumn> make_table() {
   const auto word = [](Shape) { return place_bits; };
   const auto state = [](Shape s) { return s.formats.state.width; };
-  const auto drive = [](Shape s) { return s.formats.drive.width; };
+  const auto drive = [](Shape s) { return s.drive_bits; };
   const auto link = [](Shape s) { return s.formats.link.width; };
   const auto change = [](Shape s) { return s.formats.state.width + 1; };
   return {
@@ -31,21 +32,27 @@ std::vector<FiringColumn> make_table() {
       {"link", Part::input, Count::taps, true, link, "", "L of the sources, as the phase began"},
       {"bias", Part::input, Count::one, true, [](Shape s) { return s.formats.bias.width; }, "", "I"},
       {"state", Part::input, Count::one, true, state, "", "V before"},
+      {"extrapolated", Part::input, Count::one, true, state, "", "Y before; 0 without momentum"},
+      {"momentum", Part::input, Count::one, true, [](Shape) { return spec::momentum_format.width; }, "",
+       "m of the sweep; 0 without momentum"},
       {"sum", Part::answer, Count::sums, true, [](Shape s) { return s.formats.accumulator.width; }, "s",
        "s as the bias leaves it, then after each beat"},
       {"norm", Part::answer, Count::one, false, [](Shape s) { return s.norm_bits; }, "N",
-       "N; 0 where it is not summed"},
+       "what divides s: N, or \\|w\\| of the own tap; 0 where nothing does"},
       {"reciprocal", Part::answer, Count::one, false, [](Shape s) { return s.array.reciprocal_bits; }, "r",
        "r; 0 where N is 0 or there is none"},
       {"places", Part::answer, Count::one, true, [](Shape) { return place_bits; }, "r",
        "s · r · 2^−places counts in the drive's last place"},
-      {"ratio", Part::answer, Count::one, true, drive, "u before the limiter", "u before the limiter"},
+      {"ratio", Part::answer, Count::one, true, drive, "u before the limiter",
+       "u before the limiter; u where the limiter comes first"},
       {"drive", Part::answer, Count::one, true, drive, "u", "u"},
-      {"pull", Part::answer, Count::one, true, change, "R", "R"},
-      {"product", Part::answer, Count::one, true, [](Shape s) { return s.product_bits; }, "R u",
-       "R · u, exact"},
+      {"pull", Part::answer, Count::one, true, change, "R", "R; 0 where there is none"},
+      {"product", Part::answer, Count::one, true, [](Shape s) { return s.product_bits; }, "product",
+       "R · u, or m · ΔV, exact; 0 with `projected`"},
       {"change", Part::answer, Count::one, true, change, "dV", "ΔV"},
       {"state_after", Part::answer, Count::one, true, state, "V", "V after"},
+      {"extrapolated_after", Part::answer, Count::one, true, state, "Y",
+       "Y after, where the sweep ends without a restart; 0 without momentum"},
       {"link_after", Part::answer, Count::one, true, link, "link", "L after"},
   };
 }
@@ -100,11 +107,13 @@ FiringRow row_of(const Firing& f, const NeuronShape& shape) {
           whole(f.neuron),
           whole(f.edges),
           whole(f.inputs.weight.size()),
-          whole(f.own),
+          whole(f.inputs.own_tap),
           filled(f.inputs.weight, shape.taps),
           filled(f.inputs.link, shape.taps),
           whole(f.inputs.bias),
           whole(f.inputs.state),
+          whole(f.inputs.extrapolated),
+          whole(f.inputs.momentum),
           std::move(sums),
           whole(s.norm),
           whole(s.reciprocal),
@@ -115,6 +124,7 @@ FiringRow row_of(const Firing& f, const NeuronShape& shape) {
           whole(s.product),
           whole(s.change),
           whole(s.state),
+          whole(s.extrapolated),
           whole(s.link)};
 }
 
@@ -124,10 +134,13 @@ Firing firing_of(const FiringRow& row) {
   f.sweep = static_cast<std::uint64_t>(one_of(row, "sweep"));
   f.neuron = static_cast<std::uint64_t>(one_of(row, "neuron"));
   f.edges = static_cast<std::uint32_t>(one_of(row, "edges"));
-  f.own = static_cast<std::size_t>(one_of(row, "own"));
-  f.inputs = {codes_of(row, "weight", taps), codes_of(row, "link", taps),
+  f.inputs = {codes_of(row, "weight", taps),
+              codes_of(row, "link", taps),
               static_cast<std::int32_t>(one_of(row, "bias")),
-              static_cast<std::int32_t>(one_of(row, "state"))};
+              static_cast<std::int32_t>(one_of(row, "state")),
+              static_cast<std::uint32_t>(one_of(row, "own")),
+              static_cast<std::int32_t>(one_of(row, "extrapolated")),
+              static_cast<std::int32_t>(one_of(row, "momentum"))};
   return f;
 }
 
@@ -143,12 +156,16 @@ std::optional<std::pair<std::string, std::string>> row_fault(const FiringRow& ro
                      link_one = shape.formats.link.one_raw();
   if (taps < 1 || taps > static_cast<std::int64_t>(shape.taps))
     return std::pair(fmt::format("{} taps", taps), fmt::format("1 to {}", shape.taps));
+  if (one_of(row, "own") >= taps)
+    return std::pair(fmt::format("own {}", one_of(row, "own")), fmt::format("a tap below {}", taps));
   for (const Cell& cell : row[column_named("link")])
     if (std::abs(*cell) > link_one)
       return std::pair(fmt::format("link {}", *cell), fmt::format("at most {} either way", link_one));
-  if (std::abs(one_of(row, "state")) <= state_one) return std::nullopt;
-  return std::pair(fmt::format("state {}", one_of(row, "state")),
-                   fmt::format("at most {} either way", state_one));
+  for (const char* name : {"state", "extrapolated"})
+    if (std::abs(one_of(row, name)) > state_one)
+      return std::pair(fmt::format("{} {}", name, one_of(row, name)),
+                       fmt::format("at most {} either way", state_one));
+  return std::nullopt;
 }
 
 } // namespace hopmesh::cosim

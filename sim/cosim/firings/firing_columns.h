@@ -15,7 +15,6 @@ namespace hopmesh::cosim {
 struct Firing {
   std::uint64_t sweep = 0, neuron = 0; ///< sweep 0: a line that no run made
   std::uint32_t edges = 0;             ///< a bit for each edge that it shows (firing_edges.h)
-  std::size_t own = 0;                 ///< the tap that is the neuron itself
   spec::FiringInputs inputs;
   spec::FiringSteps steps;
 };

@@ -28,19 +28,38 @@ bool overflows(Wide x, int places, const spec::NumberFormat& format) {
   return floor > format.max_raw() || floor + rest < format.min_raw();
 }
 
+/// Is |x * 2^-places| above `most`?
+bool is_beyond(Wide x, int places, std::int64_t most) {
+  if (places > 120) return false;
+  const Wide size = x < 0 ? -x : x;
+  return places > 0 ? size > Wide{most} << places : size > Wide{most} >> -places;
+}
+
+/// 2^places where there are some to make room for, else 1.
+Wide scale_of(int places) {
+  return Wide{1} << std::max(places, 0);
+}
+Wide up_by(std::int64_t x, int places) {
+  return x * scale_of(places);
+}
+
 class Look {
  public:
   Look(const Firing& firing, const NeuronShape& shape)
-      : f_(firing), shape_(shape), points_(spec::points_of(shape.formats)) {}
+      : f_(firing), shape_(shape), points_(spec::points_of(shape.formats)),
+        steps_(shape.array.output == spec::Output::projected || spec::has_momentum(shape.array)) {}
 
   std::uint32_t all() {
     look_at_ends();
     look_at_sums();
     look_at_drive();
-    const spec::Formats& f = shape_.formats;
-    note(FiringEdge::limited, f_.steps.ratio != f_.steps.drive);
-    note(FiringEdge::change_tie, is_tie(f_.steps.product, f.drive.fraction_bits()));
-    note(FiringEdge::link_tie, is_tie(f_.steps.state, points_.link_down));
+    if (steps_)
+      look_at_step();
+    else
+      note(FiringEdge::change_tie, is_tie(f_.steps.product, shape_.formats.drive.fraction_bits()));
+    note(
+        FiringEdge::link_tie,
+        is_tie(spec::has_momentum(shape_.array) ? f_.steps.extrapolated : f_.steps.state, points_.link_down));
     return edges_;
   }
 
@@ -92,26 +111,59 @@ class Look {
   void look_at_drive() {
     if (shape_.array.output == spec::Output::binary) return;
     const spec::NumberFormat& drive = shape_.formats.drive;
+    if (!steps_) note(FiringEdge::limited, f_.steps.ratio != f_.steps.drive);
     if (shape_.array.normaliser == spec::Normaliser::prescaled)
       return look_at_shift(sum(), points_.scaled_down);
     if (f_.steps.norm == 0) return;
+    const bool projected = shape_.array.output == spec::Output::projected;
+    const Wide scaled = Wide{sum()} * (projected ? shape_.array.relaxation : 1);
+    const int down = projected ? spec::relaxation_down : 0;
     if (shape_.array.normaliser == spec::Normaliser::reciprocal)
-      return look_at_shift(Wide{sum()} * f_.steps.reciprocal, static_cast<int>(f_.steps.places));
+      return look_at_shift(scaled * f_.steps.reciprocal, static_cast<int>(f_.steps.places) + down);
     const int up = points_.ratio_up;
-    const Wide s = Wide{sum()} * (Wide{1} << std::max(up, 0)), n = Wide{f_.steps.norm} << std::max(-up, 0);
-    const Wide rest = (s < 0 ? -s : s) % n;
+    const Wide s = scaled * (Wide{1} << std::max(up, 0));
+    const Wide n = Wide{f_.steps.norm} << (std::max(-up, 0) + down);
+    const Wide size = s < 0 ? -s : s, rest = size % n;
     note(FiringEdge::drive_tie, rest == n - rest);
-    note(FiringEdge::drive_overflow, s / n > drive.max_raw() || s / n < drive.min_raw());
+    if (steps_)
+      note(FiringEdge::limited, size / n + (rest > 0 ? 1 : 0) > most_drive());
+    else
+      note(FiringEdge::drive_overflow, s / n > drive.max_raw() || s / n < drive.min_raw());
   }
 
+  std::int64_t most_drive() const {
+    return shape_.formats.drive.one_raw() * (shape_.array.output == spec::Output::projected ? 2 : 1);
+  }
+
+  // Where the limiter comes before the rounding, no overflow mode has a say.
   void look_at_shift(Wide x, int places) {
     note(FiringEdge::drive_tie, is_tie(x, places));
-    note(FiringEdge::drive_overflow, overflows(x, places, shape_.formats.drive));
+    if (!steps_)
+      note(FiringEdge::drive_overflow, overflows(x, places, shape_.formats.drive));
+    else
+      note(FiringEdge::limited, is_beyond(x, places, most_drive()));
+  }
+
+  // From V, or from Y, by u; with momentum, from there by m dV.
+  void look_at_step() {
+    const bool ahead = spec::has_momentum(shape_.array);
+    const std::int64_t one = shape_.formats.state.one_raw();
+    const std::int64_t from = ahead ? f_.inputs.extrapolated : f_.inputs.state;
+    note(FiringEdge::change_tie, is_tie(f_.steps.drive, points_.step_down));
+    note(FiringEdge::held,
+         is_beyond(Wide{from} * scale_of(points_.step_down) + up_by(f_.steps.drive, -points_.step_down),
+                   std::max(points_.step_down, 0), one));
+    if (!ahead) return;
+    note(FiringEdge::ahead_tie, is_tie(f_.steps.product, spec::momentum_down));
+    note(FiringEdge::ahead_held,
+         is_beyond(Wide{f_.steps.state} * scale_of(spec::momentum_down) + f_.steps.product,
+                   spec::momentum_down, one));
   }
 
   const Firing& f_;
   const NeuronShape& shape_;
   const spec::Points points_;
+  const bool steps_; ///< u itself is the step
   std::uint32_t edges_ = 0;
 };
 
@@ -119,7 +171,7 @@ class Look {
 
 const std::vector<EdgeWords>& firing_edges() {
   static const std::vector<EdgeWords> table{
-      {"norm_zero", "N = 0: u is 0, V stays"},
+      {"norm_zero", "N = 0, or nothing else divides s"},
       {"sum_zero", "s = 0"},
       {"sum_is_norm", "s = N or s = −N, so s / N is 1 or −1"},
       {"state_high", "V = 1 before"},
@@ -129,8 +181,11 @@ const std::vector<EdgeWords>& firing_edges() {
       {"drive_tie", "u is half-way between two codes of the drive before it is rounded"},
       {"drive_overflow", "u is beyond the range of the drive before the overflow mode has its say"},
       {"limited", "the limiter changes u"},
-      {"change_tie", "R · u is half-way between two of the state's last places"},
-      {"link_tie", "V after is half-way between two codes of the link"},
+      {"change_tie", "R · u, or u where it is the step, is half-way between two of the state's last places"},
+      {"link_tie", "V after, or Y after, is half-way between two codes of the link"},
+      {"held", "the step would lead beyond ±1"},
+      {"ahead_tie", "m · ΔV is half-way between two of the state's last places"},
+      {"ahead_held", "V after + m · ΔV would lead beyond ±1"},
   };
   return table;
 }

@@ -18,7 +18,10 @@ enum class FiringEdge : std::uint8_t {
   drive_overflow,
   limited,
   change_tie,
-  link_tie
+  link_tie,
+  held,
+  ahead_tie,
+  ahead_held
 };
 
 struct EdgeWords {

@@ -10,7 +10,7 @@
 
 namespace hopmesh::cosim {
 
-inline constexpr const char* firings_header = "hopmesh-neurons 1";
+inline constexpr const char* firings_header = "hopmesh-neurons 2";
 inline constexpr const char* firings_list = "array.txt"; ///< of a folder of memories: what its array is
 
 enum class FiringFormat { text, csv, memh };

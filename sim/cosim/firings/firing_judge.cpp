@@ -60,6 +60,12 @@ std::string rights_text(const FiringRow& right) {
   return text;
 }
 
+/// Y and m, where there are any.
+std::string ahead_text(const spec::FiringInputs& in) {
+  if (in.extrapolated == 0 && in.momentum == 0) return "";
+  return fmt::format("Y before {}, m {}, ", in.extrapolated, in.momentum);
+}
+
 std::string wrong_text(const std::string& place, const Firing& f, const FiringRow& found,
                        const FiringRow& right, const WrongCell& w) {
   const std::int64_t is = *found[w.column][w.at], should = *right[w.column][w.at];
@@ -70,8 +76,9 @@ std::string wrong_text(const std::string& place, const Firing& f, const FiringRo
                   source_of(f), firing_columns()[w.column].stage, cell_name(w), is, should, size,
                   size == 1 ? "" : "s", off > 0 ? "high" : "low");
   text += fmt::format("  right before it: {}; edges: {}\n", right_before(w, found), edge_names(f.edges));
-  text += fmt::format("  V before {}, bias {}; weights {}; links {}\n", f.inputs.state, f.inputs.bias,
-                      fmt::join(f.inputs.weight, " "), fmt::join(f.inputs.link, " "));
+  text +=
+      fmt::format("  V before {}, {}bias {}; weights {}; links {}\n", f.inputs.state, ahead_text(f.inputs),
+                  f.inputs.bias, fmt::join(f.inputs.weight, " "), fmt::join(f.inputs.link, " "));
   return text + "  right is:" + rights_text(right);
 }
 

@@ -14,7 +14,8 @@ struct NeuronShape {
   std::size_t taps, beats;
   spec::Formats formats; ///< with the accumulator as built
   int norm_bits;         ///< of the largest N that codes of these formats can make
-  int product_bits;      ///< of R u, sign included
+  int drive_bits;        ///< of u: one more than the format has where u goes up to 2
+  int product_bits;      ///< of R u, or of m dV, sign included
 
   std::size_t beats_of(std::size_t row) const {
     const auto lanes = static_cast<std::size_t>(array.lanes);

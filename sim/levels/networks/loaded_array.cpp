@@ -1,5 +1,6 @@
 #include "sim/levels/networks/loaded_array.h"
 
+#include "firmware/registers.h"
 #include "sim/levels/bus_error.h"
 
 namespace hopmesh::levels {
@@ -7,25 +8,43 @@ namespace hopmesh::levels {
 LoadedArray::LoadedArray(ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology)
     : port_(port), mesh_(mesh), memories_(port.bus(), topology), buffer_(4096) {}
 
+void LoadedArray::open() {
+  check_opened(hm_driver_open(&driver_, &port_.bus(), &mesh_, buffer_.data(),
+                              static_cast<std::uint32_t>(buffer_.size())),
+               driver_);
+}
+
+void LoadedArray::put_momentum(const std::vector<double>& m) {
+  check(hm_driver_put_momentum(&driver_, m.data(), static_cast<std::uint32_t>(m.size())));
+}
+
 spec::Relaxation LoadedArray::relax(CellNetwork network, double threshold, std::uint32_t max_sweeps) {
-  if (!is_loaded())
-    check_opened(hm_driver_open(&driver_, &port_.bus(), &mesh_, buffer_.data(),
-                                static_cast<std::uint32_t>(buffer_.size())),
-                 driver_);
+  if (!is_loaded()) open();
+  start_ = to_codes(network.output, driver_.state);
   hm_network loaded{network.weight.data(), network.bias.data(), network.output.data()};
   hm_relaxation end;
   check(hm_driver_relax(&driver_, &mesh_, &loaded, threshold, max_sweeps, &end));
   outputs_ = std::move(network.output);
+  sweeps_ = end.sweeps;
   return memories_.last_run();
 }
 
 void LoadedArray::put_outputs(const std::vector<double>& outputs) {
   outputs_ = outputs;
-  memories_.put_outputs(to_codes(outputs, driver_.state));
+  start_ = to_codes(outputs, driver_.state);
+  sweeps_ = 0;
+  memories_.put_outputs(start_);
+}
+
+spec::Relaxation LoadedArray::next_sweep() {
+  sweeps_ += 1;
+  if (driver_.output != HM_OUTPUT_MOMENTUM) return memories_.one_sweep();
+  memories_.put_outputs(start_);
+  return memories_.run(memories_.threshold(), sweeps_);
 }
 
 double LoadedArray::sweep() {
-  const double change = memories_.one_sweep().largest_change * last_place();
+  const double change = next_sweep().largest_change * last_place();
   outputs_ = to_doubles(memories_.outputs(), last_place());
   return change;
 }

@@ -22,13 +22,20 @@ class LoadedArray {
   LoadedArray(ArrayPort& port, const GivenNetwork& network)
       : LoadedArray(port, network.firmware(), network.topology()) {}
 
-  /// Loads the network and relaxes it from its start. Throws as check() does, here and below.
+  /// Throws as check() does, here and below. A network that is relaxed opens the array, if nobody did.
+  void open();
+  /// By the inputs of neurons that may still move from now on, not by how far outputs do.
+  void stop_by_share(double share) { driver_.stop = {1, share}; }
+  /// m of sweep after sweep, into the table of an array that has one.
+  void put_momentum(const std::vector<double>& m);
+  /// Loads the network and relaxes it from its start.
   spec::Relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
   bool is_loaded() const { return driver_.line.bus != nullptr; }
 
   // Of what is loaded:
   void put_outputs(const std::vector<double>& outputs);
-  /// A further sweep; the largest |change| of an output.
+  /// A further sweep; the largest |change| of an output. With momentum, a sweep depends on those before it:
+  /// then the run since the last relax() or put_outputs() is made anew, and is a sweep longer.
   double sweep();
   const std::vector<double>& outputs() const { return outputs_; }
   /// As the memories have them, in units of the network that was given.
@@ -39,6 +46,7 @@ class LoadedArray {
 
  private:
   LoadedArray(ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology);
+  spec::Relaxation next_sweep();
   /// Of what a weight or a bias was multiplied with before it was rounded.
   double unit() const { return hm_power_of_two(-driver_.shift); }
 
@@ -48,6 +56,8 @@ class LoadedArray {
   hm_driver driver_{};
   std::vector<std::uint32_t> buffer_;
   std::vector<double> outputs_;
+  Codes start_; ///< of the run that sweep() goes on with
+  std::uint32_t sweeps_ = 0;
 };
 
 } // namespace hopmesh::levels

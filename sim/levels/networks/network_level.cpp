@@ -3,6 +3,7 @@
 #include "sim/levels/eigen_vectors.h"
 #include "sim/levels/networks/loaded_array.h"
 #include "sim/levels/reference_check.h"
+#include "sim/reference/sweeper.h"
 
 namespace hopmesh::levels {
 
@@ -12,29 +13,27 @@ using reference::Vector;
 
 class ReferenceLevel : public NetworkLevel {
  public:
-  ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array)
+  ReferenceLevel(const GivenNetwork& network, const spec::ArraySpec& array, const RelaxOptions& options)
       : network_(network), order_(spec::phases_of(network.topology(), array.schedule)),
-        neuron_(neuron_of(array.output)), V_(network.start()) {}
+        rule_(rule_of(array, options.momentum)), stop_{options.threshold, options.max_sweeps, options.share} {
+    restart();
+  }
 
-  spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
-    reference::Relaxation end =
-        reference::relax(network_.network(), order_, network_.start(), threshold, max_sweeps, neuron_);
-    V_ = std::move(end.V);
+  spec::Relaxation relax() override {
+    restart();
+    const reference::Relaxation end = reference::relax(*sweeper_, stop_);
     return {end.sweeps, end.converged, 0, 0};
   }
-  void restart() override { V_ = network_.start(); }
-  double sweep() override {
-    const Vector before = V_;
-    V_ = reference::relax(network_.network(), order_, V_, 0, 1, neuron_).V;
-    return (V_ - before).cwiseAbs().maxCoeff();
-  }
-  const Vector& outputs() const override { return V_; }
+  void restart() override { sweeper_.emplace(network_.network(), order_, rule_, network_.start()); }
+  double sweep() override { return sweeper_->sweep().largest_change; }
+  const Vector& outputs() const override { return sweeper_->V(); }
 
  private:
   const GivenNetwork& network_;
   const reference::Order order_;
-  const reference::Neuron neuron_;
-  Vector V_;
+  const reference::NeuronRule rule_;
+  const reference::Stop stop_;
+  std::optional<reference::Sweeper> sweeper_;
 };
 
 std::size_t count_vanished(const std::vector<double>& given, const std::vector<double>& loaded) {
@@ -46,13 +45,17 @@ std::size_t count_vanished(const std::vector<double>& given, const std::vector<d
 
 class ArrayLevel : public NetworkLevel {
  public:
-  ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, ArrayPort& port)
-      : network_(network), array_(array), loaded_(port, network) {}
+  ArrayLevel(const GivenNetwork& network, const spec::ArraySpec& array, const RelaxOptions& options,
+             ArrayPort& port)
+      : network_(network), array_(array), options_(options), loaded_(port, network) {}
 
-  spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) override {
+  spec::Relaxation relax() override {
+    loaded_.open();
+    if (options_.share) loaded_.stop_by_share(*options_.share);
+    if (!options_.momentum.empty()) loaded_.put_momentum(options_.momentum);
     const spec::Relaxation end =
         loaded_.relax({network_.rows(), values_of(network_.network().I), values_of(network_.start())},
-                      threshold, max_sweeps);
+                      options_.threshold, options_.max_sweeps);
     V_ = vector_of(loaded_.outputs());
     return end;
   }
@@ -86,6 +89,7 @@ class ArrayLevel : public NetworkLevel {
  private:
   const GivenNetwork& network_;
   const spec::ArraySpec array_;
+  const RelaxOptions options_;
   LoadedArray loaded_;
   std::optional<reference::Network> in_memory_;
   Vector V_;
@@ -93,13 +97,14 @@ class ArrayLevel : public NetworkLevel {
 
 } // namespace
 
-std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array) {
-  return std::make_unique<ReferenceLevel>(network, array);
+std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array,
+                                              const RelaxOptions& options) {
+  return std::make_unique<ReferenceLevel>(network, array, options);
 }
 
 std::unique_ptr<NetworkLevel> array_level(const GivenNetwork& network, const spec::ArraySpec& array,
-                                          ArrayPort& port) {
-  return std::make_unique<ArrayLevel>(network, array, port);
+                                          const RelaxOptions& options, ArrayPort& port) {
+  return std::make_unique<ArrayLevel>(network, array, options, port);
 }
 
 } // namespace hopmesh::levels

@@ -11,16 +11,25 @@
 
 namespace hopmesh::levels {
 
+/// How a given network is relaxed.
+struct RelaxOptions {
+  double threshold = 1e-4; ///< until no output moves by more in a sweep
+  std::uint32_t max_sweeps = 10'000;
+  /// Instead of the threshold: of the first sweep's largest |s| of a neuron that may still move.
+  std::optional<double> share = {};
+  /// m of an array with momentum, sweep by sweep; empty: the sequence of docs/method/theory.md.
+  std::vector<double> momentum = {};
+};
+
 class NetworkLevel {
  public:
   virtual ~NetworkLevel() = default;
-  /// From the start until no output moves by more than `threshold` in a sweep, or so many sweeps. The
-  /// reference has neither cycles nor codes: they are 0. Throws Stopped where the user stops an
-  /// array.
-  virtual spec::Relaxation relax(double threshold, std::uint32_t max_sweeps) = 0;
+  /// From the start. The reference has neither cycles nor codes: they are 0. Throws Stopped where the user
+  /// stops an array.
+  virtual spec::Relaxation relax() = 0;
   /// Puts the start back.
   virtual void restart() = 0;
-  /// Another sweep; the largest |change| of an output.
+  /// Another sweep, of the same run where it matters; the largest |change| of an output.
   virtual double sweep() = 0;
   virtual const Eigen::VectorXd& outputs() const = 0;
   /// Weights and biases that did not fit the formats of an array.
@@ -32,8 +41,9 @@ class NetworkLevel {
   virtual std::size_t vanished() const { return 0; }
 };
 
-std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array);
+std::unique_ptr<NetworkLevel> reference_level(const GivenNetwork& network, const spec::ArraySpec& array,
+                                              const RelaxOptions& options);
 std::unique_ptr<NetworkLevel> array_level(const GivenNetwork& network, const spec::ArraySpec& array,
-                                          ArrayPort& port);
+                                          const RelaxOptions& options, ArrayPort& port);
 
 } // namespace hopmesh::levels

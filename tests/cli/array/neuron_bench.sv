@@ -80,6 +80,7 @@ module neuron_bench;
       change[n] = change_now[CHANGE_WIDTH-1:0];
       v = longint'(state[n]) + change_now + off(7);
       state_after[n] = v[STATE_AFTER_WIDTH-1:0];
+      extrapolated_after[n] = 0;
       v = rounded(v, STATE_FRACTION - LINK_FRACTION) + off(8);
       link_after[n] = v[LINK_AFTER_WIDTH-1:0];
     end
@@ -104,6 +105,7 @@ module neuron_bench;
     $writememh({`NEURONS_DIR, "/product.memh"}, product);
     $writememh({`NEURONS_DIR, "/change.memh"}, change);
     $writememh({`NEURONS_DIR, "/state_after.memh"}, state_after);
+    $writememh({`NEURONS_DIR, "/extrapolated_after.memh"}, extrapolated_after);
     $writememh({`NEURONS_DIR, "/link_after.memh"}, link_after);
     $finish;
   end

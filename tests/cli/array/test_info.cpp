@@ -186,7 +186,7 @@ TEST_F(CliInfo, TellsThatPackingHasNothingToPack) {
   EXPECT_EQ(wide.exit_code, 0);
   EXPECT_EQ(wide.err,
             "hopmesh: note: --set: array.packing: no effect here; it counts only with a weight, bias "
-            "or state of at most 16 bits\n");
+            "or state of at most 16 bits, or a table of m\n");
   EXPECT_EQ(row(wide.out, "load weights, bias, start"), "30,993 on the bus");
 }
 

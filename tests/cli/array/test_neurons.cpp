@@ -29,12 +29,17 @@ TEST_F(CliNeurons, AnotherNeuronFillsInRandomFiringsOfManyArraysAndIsRight) {
        {std::string(), std::string("--array descent --taps 4"), std::string("--array prescaled --taps 9"),
         std::string("--array byte --taps 1"), std::string("--set array.output=binary --taps 3"), rounding,
         rounding + "--set array.normaliser=divider --set formats.drive=fixed<20,3,SC_RND_ZERO,SC_SAT_ZERO>",
-        rounding + "--set array.normaliser=prescaled --set formats.state=fixed<20,2,SC_RND_INF,SC_SAT>"}) {
+        rounding + "--set array.normaliser=prescaled --set formats.state=fixed<20,2,SC_RND_INF,SC_SAT>",
+        rounding + "--set array.output=projected --set array.relaxation=25 --set array.normaliser=divider",
+        std::string("--array descent-projected --taps 4"), std::string("--array descent-momentum --taps 4"),
+        rounding +
+            "--set array.output=momentum --set array.schedule=synchronous --set "
+            "formats.state=fixed<15,2,SC_RND_CONV,SC_WRAP> --set formats.link=fixed<12,2,SC_TRN,SC_SAT>"}) {
     good("vectors --neurons --random 200 --seed 5 --blank --out b.txt " + array);
     fill_in("b.txt", "f.txt");
     EXPECT_THAT(
         good("vectors --neurons --check f.txt").out,
-        HasSubstr("all right in s, N, r, u before the limiter, u, R, R u, dV, V, link (level engine)"))
+        HasSubstr("all right in s, N, r, u before the limiter, u, R, product, dV, V, Y, link (level engine)"))
         << array;
   }
 }
@@ -75,9 +80,10 @@ const std::vector<Seeded> seeded{
     {"ratio", 4, "u before the limiter is wrong first (ratio): "},
     {"drive", -2, "u is wrong first (drive): "},
     {"pull", 1, "R is wrong first (pull): "},
-    {"product", 9, "R u is wrong first (product): "},
+    {"product", 9, "product is wrong first (product): "},
     {"change", -5, "dV is wrong first (change): "},
     {"state_after", 3, "V is wrong first (state_after): "},
+    {"extrapolated_after", 1, "Y is wrong first (extrapolated_after): "},
     {"link_after", 1, "link is wrong first (link_after): "},
 };
 INSTANTIATE_TEST_SUITE_P(Of, CliNeuronsStage, ::testing::ValuesIn(seeded),
@@ -117,7 +123,7 @@ TEST_F(CliNeurons, ARunOfASceneIsWhatItsVectorsTell) {
   for (const std::string& line : lines("n.csv")) {
     const auto cells = split(line, ',');
     if (cells.size() > 3 && line[0] != '#' && cells[0] != "sweep" && cells[0] != "0")
-      firings.push_back(cells[0] + " " + cells[1] + " " + cells[cells.size() - 2]);
+      firings.push_back(cells[0] + " " + cells[1] + " " + cells[cells.size() - 3]);
   }
   EXPECT_FALSE(answers.empty());
   EXPECT_EQ(firings, answers);
@@ -126,7 +132,7 @@ TEST_F(CliNeurons, ARunOfASceneIsWhatItsVectorsTell) {
 TEST_F(CliNeurons, EdgesThatAnArrayCannotShowAreTold) {
   EXPECT_THAT(good("vectors --neurons --random 5 --array descent --out n.txt").out,
               HasSubstr("no firing of this array was found for "
-                        "sum_tie+sum_overflow+drive_overflow+limited+link_tie\n"));
+                        "sum_tie+sum_overflow+drive_overflow+limited+link_tie+held+ahead_tie+ahead_held\n"));
   EXPECT_THAT(content_of(at("n.txt")), HasSubstr(" norm_zero+sum_zero+state_high "));
 }
 
@@ -136,13 +142,13 @@ TEST_F(CliNeurons, StagesThatACoreDoesNotTellAreNotJudged) {
   for (const std::string& line : lines("n.csv")) {
     auto cells = split(line, ',');
     if (cells.size() > 3 && cells[0] != "sweep")
-      for (std::size_t k = 11; k + 2 < cells.size(); ++k) cells[k] = "?"; // all but V and its link
+      for (std::size_t k = 13; k + 3 < cells.size(); ++k) cells[k] = "?"; // all but V, Y and the link
     for (std::size_t k = 0; k < cells.size(); ++k) text += (k ? "," : "") + cells[k];
     text += '\n';
   }
   write_text(at("n.csv"), text);
   const std::string out = good("vectors --neurons --check n.csv").out;
-  EXPECT_THAT(out, HasSubstr("all right in V, link (level engine)\nnot told, so not judged: s, N, r, "));
+  EXPECT_THAT(out, HasSubstr("all right in V, Y, link (level engine)\nnot told, so not judged: s, N, r, "));
 }
 
 // ---- memories ----
@@ -167,8 +173,9 @@ TEST_F(CliNeuronsInVerilog, ACoreReadsTheMemoriesAnswersAndIsJudgedStageByStage)
   good("vectors --neurons --random 100 --seed 3 --format memh --blank --set array.lanes=2 --out m");
   build("m");
   run();
-  EXPECT_THAT(good("vectors --neurons --check m").out,
-              HasSubstr("all right in s, N, r, u before the limiter, u, R, R u, dV, V, link (level engine)"));
+  EXPECT_THAT(
+      good("vectors --neurons --check m").out,
+      HasSubstr("all right in s, N, r, u before the limiter, u, R, product, dV, V, Y, link (level engine)"));
   const std::vector<std::string> stages{"s", "N", "r", "u", "R", "dV", "V", "link"};
   for (std::size_t k = 0; k < stages.size(); ++k) {
     run("+firing=60 +stage=" + std::to_string(k + 1));
@@ -196,7 +203,7 @@ TEST_F(CliNeurons, MemoriesHoldWhatTheTextHolds) {
   std::vector<std::int64_t> states, told;
   for (const std::string& line : lines("n.txt")) {
     const auto words = split(line, ' ');
-    if (words[0] == "fire") states.push_back(std::stoll(words[words.size() - 2]));
+    if (words[0] == "fire") states.push_back(std::stoll(words[words.size() - 3]));
   }
   for (const std::string& word : lines_of(content_of(at("m") / "state_after.memh")))
     told.push_back(static_cast<std::int32_t>(std::stoul(word, nullptr, 16) << 8) >> 8); // 24 bits
@@ -213,8 +220,8 @@ TEST_F(CliNeurons, MistakesAreToldInOneLine) {
     write_text(at("x.txt"), text);
     return refused("vectors --neurons --check x.txt");
   };
-  EXPECT_THAT(with("hopmesh-neurons", "hopmesh-neurons 2"),
-              HasSubstr("x.txt:1: found \"hopmesh-neurons 2\""));
+  EXPECT_THAT(with("hopmesh-neurons", "hopmesh-neurons 1"),
+              HasSubstr("x.txt:1: found \"hopmesh-neurons 1\""));
   EXPECT_THAT(with("case", "csae one"), HasSubstr("expected case NAME (did you mean case?)"));
   EXPECT_THAT(with("lanes", "lanes 0"), HasSubstr("lanes: found 0, expected 1 to 64"));
   EXPECT_THAT(with("taps", "taps 0"), HasSubstr("found \"0\", expected taps, an integer from 1"));
@@ -222,12 +229,12 @@ TEST_F(CliNeurons, MistakesAreToldInOneLine) {
   EXPECT_THAT(with("fire", "fired 1"), HasSubstr("(did you mean fire?)"));
   EXPECT_THAT(with("fire", "fire 0 0 - 1"), HasSubstr("found 4 cells, expected own"));
   EXPECT_THAT(with("fire", "fire 0 0 none 1"), HasSubstr("found \"none\", expected names of edges, or -"));
-  EXPECT_THAT(with("fire", "fire 0 0 - 1 0 99999 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"),
+  EXPECT_THAT(with("fire", "fire 0 0 - 1 0 99999 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"),
               HasSubstr("weight 99999"));
-  EXPECT_THAT(with("fire", "fire 0 0 - 1 0 0 0 0 0 0 0 ? ? ? ? ? ? ? ? ? ? ? ? ?"),
+  EXPECT_THAT(with("fire", "fire 0 0 - 1 0 0 0 0 0 0 0 0 0 ? ? ? ? ? ? ? ? ? ? ? ? ? ?"),
               HasSubstr("found no answer"));
   EXPECT_THAT(refused("vectors --neurons --check none.txt"), HasSubstr("found no such file"));
-  EXPECT_THAT(refused("vectors --check n.txt"), HasSubstr("expected hopmesh-vectors 3"));
+  EXPECT_THAT(refused("vectors --check n.txt"), HasSubstr("expected hopmesh-vectors 4"));
   write_text(at("m") / "drive.memh", "zz\n0g\n");
   EXPECT_THAT(refused("vectors --neurons --check m"), HasSubstr("drive.memh:2: found \"0g\""));
   std::filesystem::remove(at("m") / "weight.memh");

@@ -45,12 +45,18 @@ TEST_F(CliVectors, AnotherCoreFillsInRandomCasesAndIsRight) {
   fill_in("b.txt", "f.txt");
   EXPECT_THAT(good("vectors --check f.txt").out, HasSubstr("f.txt: 300 cases, "));
   const std::string text = content_of(at("b.txt"));
-  for (const char* line : {"\noutput binary\n", "\noutput modified\n", "\nneurons_per_cell 1\n"})
+  for (const char* line : {"\noutput binary\n", "\noutput modified\n", "\noutput projected\n",
+                           "\noutput momentum\n", "\nstop sum\n", "\nneurons_per_cell 1\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 
 TEST_F(CliVectors, AnotherCoreFillsInAStepOfAFlagOnEveryPreset) {
-  for (const char* preset : {"guarded", "descent", "prescaled", "byte", "folded"}) {
+  for (const char* preset :
+       {"guarded", "descent", "prescaled", "byte", "folded", "descent-projected", "descent-momentum",
+        "guarded --set relax.stop=sum --set array.output=projected --set array.relaxation=20",
+        "folded --set relax.stop=sum --set array.output=momentum --set array.schedule=synchronous",
+        "byte --set array.output=momentum --set array.schedule=synchronous --set "
+        "relax.momentum=[0.25,0.875]"}) {
     good(std::string("vectors flag-225 --step 1 --sweeps 5 --blank --out b.txt --array ") + preset);
     fill_in("b.txt", "f.txt");
     EXPECT_THAT(good("vectors --check f.txt --level systemc").out, HasSubstr("all right (level systemc)"));
@@ -93,7 +99,7 @@ TEST_F(CliVectors, AStepIsWhatTheRunLoaded) {
   const auto end = split(lines.back(), ' ');
   EXPECT_EQ(end.at(0), "end");
   EXPECT_EQ(std::stod(end.at(1)), table.numbers("sweeps")[3]);
-  EXPECT_EQ(std::stod(end.at(4)), table.numbers("cycles")[3]);
+  EXPECT_EQ(std::stod(end.at(5)), table.numbers("cycles")[3]);
   const Array outputs = read_array(at("r") / "outputs_raw.npy");
   std::vector<double> last; // of each phase of the last sweep: one neuron each
   for (std::size_t k = lines.size() - 4; k + 1 < lines.size(); ++k)
@@ -129,8 +135,8 @@ TEST_F(CliVectors, EveryKindOfWrongAnswerIsExitOne) {
   expect_wrong("fire 1 0", "fire 1 0 29 5", "found 5, expected ");
   const auto words = split(line_with("fire 2 1"), ' ');
   expect_wrong("fire 2 1", "fire 2 1 59 " + words[4], "found cycle 59, expected 58");
-  expect_wrong("end ", "end 4 0 9 999", "found end 4 0 9 999, expected end ");
-  expect_wrong("fire 3 0", "end 2 1 0 67", "found the end after 2 sweeps, expected sweep 3 of ");
+  expect_wrong("end ", "end 4 0 9 0 999", "found end 4 0 9 0 999, expected end ");
+  expect_wrong("fire 3 0", "end 2 1 0 0 67", "found the end after 2 sweeps, expected sweep 3 of ");
   write_text(at("v.txt"), whole);
   change_line("v.txt", "max_sweeps", "max_sweeps 1");
   const Finished f = hopmesh("vectors --check v.txt");
@@ -173,13 +179,14 @@ TEST_P(CliVectorsFile, IsRefusedByNameAndLine) {
 
 const std::vector<Corruption> corruptions{
     {"Header", "hopmesh-vectors", "hopmesh-vectors 1",
-     "found \"hopmesh-vectors 1\", expected hopmesh-vectors 3"},
-    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 3"},
+     "found \"hopmesh-vectors 1\", expected hopmesh-vectors 4"},
+    {"Foreign", "hopmesh-vectors", "<html>", "expected hopmesh-vectors 4"},
     {"Case", "case ", "csae one", "expected case NAME (did you mean case?)"},
     {"CaseWithoutName", "case ", "case", "expected case NAME"},
     {"Schedule", "schedule ", "schedule colored",
      "coloured or sequential or synchronous (did you mean coloured?)"},
-    {"Output", "output ", "output modfied", "output modified or binary (did you mean modified?)"},
+    {"Output", "output ", "output modfied",
+     "output modified or binary or projected or momentum (did you mean modified?)"},
     {"Order", "lanes ", "bus_bits 32", "found \"bus_bits 32\", expected lanes N"},
     {"Lanes", "lanes ", "lanes 0", "lanes: found 0, expected 1 to 64"},
     {"LanesReal", "lanes ", "lanes 1.5", "found \"1.5\", expected lanes, an integer"},
@@ -196,6 +203,11 @@ const std::vector<Corruption> corruptions{
     {"LinkNumber", "links 1", "links 7", "expected links 1 and its neighbours"},
     {"Threshold", "threshold ", "threshold -1", "found \"-1\", expected threshold"},
     {"Sweeps", "max_sweeps ", "max_sweeps", "expected max_sweeps N"},
+    {"Stop", "stop ", "stop sums", "found \"stop sums\", expected stop change or stop sum"},
+    {"Share", "share ", "share 64", "found \"64\", expected share, an integer from 0 to 63"},
+    {"SumThreshold", "sum_threshold ", "sum_threshold -1", "found \"-1\", expected sum_threshold"},
+    {"Momentum", "momentum", "momentum 1 2 3 4 5 6 7", "7 words behind \"momentum\", expected momentum and"},
+    {"Relaxation", "relaxation ", "relaxation 32", "relaxation: found 32, expected 1 to 31"},
     {"NeuronShort", "neuron 1 ", "neuron 1 0 0",
      "words behind \"neuron\", expected neuron 1, start, bias and"},
     {"Phases", "phases ", "phases 99", "by the schedule"},
@@ -203,7 +215,7 @@ const std::vector<Corruption> corruptions{
     {"Answers", "answers", "answer", "expected answers"},
     {"FireOrder", "fire 1 1 ", "fire 1 2 9 9", "expected fire 1 1 CYCLE and"},
     {"FireWord", "fire 1 0 ", "fired 1 0 9", "(did you mean fire?)"},
-    {"End", "end ", "end 1", "expected end SWEEPS CONVERGED LARGEST_CHANGE CYCLES"},
+    {"End", "end ", "end 1", "expected end SWEEPS CONVERGED LARGEST_CHANGE LARGEST_SUM CYCLES"},
     {"CutInTheNetwork", "neuron 1 ", "", "found the end of the file, expected neuron 1"},
     {"CutInTheAnswers", "fire 1 1 ", "", "found the end of the file, expected "},
 };
@@ -232,7 +244,7 @@ TEST_F(CliVectors, ABlankCaseIsNoAnswer) {
 
 TEST_F(CliVectors, FilesThatAreNone) {
   write_text(at("empty.txt"), "");
-  write_text(at("head.txt"), "hopmesh-vectors 3\n# nothing\n");
+  write_text(at("head.txt"), "hopmesh-vectors 4\n# nothing\n");
   write_text(at("binary.txt"), std::string("\x7f\x45\x4c\x46\0\1\2", 7));
   std::filesystem::create_directory(at("folder"));
   for (const auto& [name, says] :
