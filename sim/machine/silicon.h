@@ -33,7 +33,9 @@ struct MemoryBits {
   std::uint64_t sums = 0;        ///< accumulators, and hold registers in front of a shared stage
   std::uint64_t momentum = 0;    ///< the table of m
 
-  std::uint64_t total() const { return weights + biases + states + links + norms + reciprocals + sums + momentum; }
+  std::uint64_t total() const {
+    return weights + biases + states + links + norms + reciprocals + sums + momentum;
+  }
 };
 MemoryBits memory_bits(const spec::ArraySpec& array, const spec::Topology& topology);
 

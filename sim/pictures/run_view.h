@@ -57,7 +57,7 @@ struct RunView {
   std::vector<std::pair<std::string, std::vector<Figure>>>
       tables;                    ///< e.g. {"The array", {...}}, {"Speed", {...}}
   std::vector<Drawing> drawings; ///< above the tables
-  std::string manifest; ///< manifest.json as text
+  std::string manifest;          ///< manifest.json as text
 };
 
 } // namespace hopmesh::pictures
