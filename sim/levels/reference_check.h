@@ -3,6 +3,7 @@
 
 #include "firmware/relax.h"
 #include "sim/levels/mover.h"
+#include "sim/reference/block_sweeps.h"
 #include "sim/reference/judgement.h"
 
 namespace hopmesh::levels {
