@@ -6,7 +6,7 @@
 #include "sim/cosim/random_job.h"
 #include "sim/engine/clocked/clock_stepped.h"
 #include "sim/levels/array_mover.h"
-#include "sim/levels/engine_port.h"
+#include "sim/levels/ports/engine_port.h"
 #include "sim/machine/silicon.h"
 #include "tests/support/small_scenes.h"
 
