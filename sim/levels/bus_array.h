@@ -17,7 +17,7 @@ class BusArray {
   void put_outputs(const Codes& codes) const;
   /// From where V is, until at rest or `max_sweeps`.
   spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps) const;
-  /// The same by a rule of STOP. That of a run without one is what the array has: none after RESET.
+  /// By a rule of STOP. That of a run without one is what the array has: none after RESET.
   spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule) const;
   spec::Relaxation one_sweep() const { return run(0, 1); }
   /// What the registers tell of the last run, and what it was started with.
