@@ -175,7 +175,8 @@ spec::Topology tangle(Dice& dice, std::size_t cells, int per_cell) {
 /// Meshes larger than a few blocks, so that every way of finding neighbours is walked.
 void run_large(std::uint64_t seed, spec::Topology topology, Dice& dice) {
   const auto normaliser = static_cast<spec::Normaliser>(seed % 3);
-  ArrayJob job = random_codes(dice, random_fast_array(dice, topology, normaliser, output_of(seed)), topology);
+  ArrayJob job = random_codes(
+      dice, random_fast_array(dice, topology, normaliser, output_of(seed, normaliser)), topology);
   job.max_sweeps = 1 + static_cast<std::uint32_t>(seed % 4);
   run_all(job, seed, ways_for(dice));
 }
