@@ -38,7 +38,8 @@ inline ArrayKeys stage_keys(ArraySpec& a) {
   const char* const with_reciprocal = divides(a) ? "array.normaliser = \"reciprocal\"" : with_division;
   return {
       ArrayKey("array.output", choice(a.output, output_names),
-               "V moves by R · s / N; is the sign of s; moves by ω · s / |w_ii|; or by s / N, with momentum")
+               "V moves by R · s / N; is the sign of s; moves by ω · s over the size of its own weight; or "
+               "by s / N, with momentum")
           .in_vectors(2)
           .plain(Output::modified),
       ArrayKey("array.normaliser", choice(a.normaliser, normaliser_names),

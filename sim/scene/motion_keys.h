@@ -68,13 +68,36 @@ inline input::When moving(const MotionKeys& m, const IncrementalSpec& i) {
           "a motion through time, not incremental.rule = \"static\""};
 }
 
+inline input::Keys relax_keys(RelaxSpec& r) {
+  using namespace input;
+  const Range count{1, most_count, ""};
+  return {
+      Key("relax.threshold", &r.threshold, from_zero,
+          "a sweep in which no output moves by more is the last one")
+          .counts({r.stop == Stop::change, "relax.stop = \"change\""}),
+      Key("relax.max_sweeps", &r.max_sweeps, count, "at most so many sweeps a step and expansion"),
+      Key("relax.expansions", &r.expansions, {1, 1000, ""},
+          "how often a step expands the energy anew about the outputs it came to"),
+      Key("relax.stop", spec::choice(r.stop, stop_names),
+          "what tells rest: how far outputs move, or the inputs s of neurons that may still move"),
+      Key("relax.share", &r.share, {0, 0.5, "a number from 0 to 0.5"},
+          "a sweep whose largest s, by magnitude, is at most this share of the first sweep's is the last "
+          "one, and so is "
+          "one at what a last place of the link is worth; arrays take the power of two at or below")
+          .counts({r.stop == Stop::sum, "relax.stop = \"sum\""}),
+      Key("relax.momentum", momentum_list(r.momentum),
+          "m of `array.output = \"momentum\"`, sweep by sweep; the last one holds on")
+          .allows("`\"fista\"`, or a list of numbers from 0 to 1"),
+  };
+}
+
 /// In the order of scene files.
 inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, RelaxSpec& r, RivalSpec& v) {
   using namespace input;
   const When probe{m.formulation == Formulation::probe, "motion.formulation = \"probe\""};
   const When incremental{m.formulation == Formulation::incremental, "motion.formulation = \"incremental\""};
   const Range count{1, most_count, ""};
-  return {
+  Keys keys{
       Key("motion.formulation", spec::choice(m.formulation, formulation_names),
           "what outputs mean: directions (the paper), or accelerations of an implicit step"),
       Key("motion.time_step", &m.time_step, above_zero, "Δt").in_unit("s"),
@@ -102,26 +125,14 @@ inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, 
           "the implicit step of `formulation = \"incremental\"`; `\"static\"`: a step towards rest, without "
           "speed or inertia")
           .counts(incremental),
-      Key("relax.threshold", &r.threshold, from_zero,
-          "a sweep in which no output moves by more is the last one")
-          .counts({r.stop == Stop::change, "relax.stop = \"change\""}),
-      Key("relax.max_sweeps", &r.max_sweeps, count, "at most so many sweeps a step and expansion"),
-      Key("relax.expansions", &r.expansions, {1, 1000, ""},
-          "how often a step expands the energy anew about the outputs it came to"),
-      Key("relax.stop", spec::choice(r.stop, stop_names),
-          "what tells rest: how far outputs move, or the inputs s of neurons that may still move"),
-      Key("relax.share", &r.share, {0, 0.5, "a number from 0 to 0.5"},
-          "a sweep whose largest |s| is at most this share of the first sweep's is the last one, and so is "
-          "one at what a last place of the link is worth; arrays take the power of two at or below")
-          .counts({r.stop == Stop::sum, "relax.stop = \"sum\""}),
-      Key("relax.momentum", momentum_list(r.momentum),
-          "m of `array.output = \"momentum\"`, sweep by sweep; the last one holds on")
-          .allows("`\"fista\"`, or a list of numbers from 0 to 1"),
+  };
+  for (const Key& key : relax_keys(r)) keys.push_back(key);
+  keys.push_back(
       Key("rival.tolerance", &v.tolerance, from_zero,
           "levels that are implicit integrators end a step with the iteration that moves no coordinate by "
           "more; 0: as each of them does by itself")
-          .in_unit("m"),
-  };
+          .in_unit("m"));
+  return keys;
 }
 
 } // namespace hopmesh::scene

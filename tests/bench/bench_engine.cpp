@@ -112,6 +112,14 @@ void register_roofs() {
   add("roof multiply-add/int16", multiply_roof);
 }
 
+void register_stages() {
+  for (std::size_t rows : {20, 40, 100, 1000})
+    for (const char* output : {"projected", "momentum"})
+      add(std::string(output) + "/" + std::to_string(rows * rows), [=](benchmark::State& s) {
+        relax(s, flag(rows, "", output_keys(output)), {1, "auto", 1});
+      });
+}
+
 void register_all() {
   register_roofs();
   for (std::size_t rows : {15, 20, 40, 100, 316, 1000})
@@ -122,11 +130,7 @@ void register_all() {
     add(std::string("kernel/") + kernel, [=](benchmark::State& s) {
       relax(s, flag(20, ""), {1, kernel, 1});
     });
-  for (std::size_t rows : {20, 40, 100, 1000})
-    for (const char* output : {"projected", "momentum"})
-      add(std::string(output) + "/" + std::to_string(rows * rows), [=](benchmark::State& s) {
-        relax(s, flag(rows, "", output_keys(output)), {1, "auto", 1});
-      });
+  register_stages();
   for (const char* array : {"descent", "prescaled", "byte", "folded"})
     add(std::string("array/") + array, [=](benchmark::State& s) {
       relax(s, flag(20, array), {1, "auto", 1});

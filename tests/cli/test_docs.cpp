@@ -122,16 +122,18 @@ TEST_F(CliDocs, EveryKeyOnAPageIsOneOfTheProgram) {
 TEST_F(CliDocs, PresetsAreWhatTheArrayPageSays) {
   const auto rows = rows_of(page("use/array-files.md"), "Presets");
   const auto plain = scene_and_array("two-nodes").second;
-  for (std::size_t column = 1; column <= 5; ++column) {
+  for (std::size_t column = 1; column <= 7; ++column) {
     const std::string preset = split(rows[0].at(column), '`')[1];
     auto expected = plain;
     expected["name"] = '"' + preset + '"';
-    for (std::size_t k = 2; k < rows.size() && rows[k].size() == 6; ++k)
+    for (std::size_t k = 2; k < rows.size() && rows[k].size() == 8; ++k)
       expected[split(rows[k][0], '`')[1]] = split(rows[k].at(column), '`')[1];
     EXPECT_EQ(scene_and_array("two-nodes --array " + preset).second, expected) << preset;
   }
-  EXPECT_THAT(hopmesh("info two-nodes --array none").err,
-              HasSubstr("\"guarded\", \"descent\", \"prescaled\", \"byte\" or \"folded\""));
+  EXPECT_THAT(
+      hopmesh("info two-nodes --array none").err,
+      HasSubstr("\"guarded\", \"descent\", \"prescaled\", \"byte\", \"folded\", \"descent-projected\" or "
+                "\"descent-momentum\""));
 }
 
 TEST_F(CliDocs, EveryShippedSceneIsOnTheScenePage) {

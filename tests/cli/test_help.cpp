@@ -61,7 +61,8 @@ TEST_F(CliHelp, ListsNameWhatThereIs) {
   };
   EXPECT_THAT(names_in_list("scenes"), ::testing::IsSupersetOf({"flag-400", "banner", "two-nodes"}));
   EXPECT_THAT(names_in_list("presets"),
-              ::testing::ElementsAre("guarded", "descent", "prescaled", "byte", "folded"));
+              ::testing::ElementsAre("guarded", "descent", "prescaled", "byte", "folded", "descent-projected",
+                                     "descent-momentum"));
   EXPECT_EQ(names_in_list("levels"), levels::level_names());
   EXPECT_THAT(names_in_list("studies"), ::testing::IsSupersetOf({"first-widths", "banner-bits"}));
   EXPECT_THAT(names_in_list("problems"), ::testing::IsSupersetOf({"queens-8", "box-random-100"}));

@@ -1,7 +1,7 @@
 // The clock-stepped engine beside the SystemC array woken by clock: every register of every neuron after
 // every clock; and at the end of a run the engine's.
 #include "rtl_model/spec/presets.h"
-#include "tests/engine/clocked_pair.h"
+#include "tests/engine/clocked_end.h"
 #include "tests/engine/engine_bench.h"
 
 namespace hopmesh::tests {

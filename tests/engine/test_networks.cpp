@@ -177,6 +177,7 @@ void run_large(std::uint64_t seed, spec::Topology topology, Dice& dice) {
   const auto normaliser = static_cast<spec::Normaliser>(seed % 3);
   ArrayJob job = random_codes(
       dice, random_fast_array(dice, topology, normaliser, output_of(seed, normaliser)), topology);
+  give_rule(dice, job);
   job.max_sweeps = 1 + static_cast<std::uint32_t>(seed % 4);
   run_all(job, seed, ways_for(dice));
 }

@@ -53,8 +53,8 @@ TEST_P(EngineRuns, ThatFollowEachOtherEndWherePlainOnesDo) {
     std::uint32_t sweeps = 1;
     while (changes[sweeps - 1] > threshold) ++sweeps;
     if (!ends.insert(sweeps).second) continue;
-    ArrayResult expected{
-        {whole.history[sweeps - 1]}, sweeps, true, changes[sweeps - 1], slow_cycles(job, sweeps)};
+    ArrayResult expected{{whole.history[sweeps - 1]}, sweeps, true,
+                         changes[sweeps - 1],         0,      slow_cycles(job, sweeps)};
     const spec::Extremes swings = extremes_of_plain_run(job);
     for (std::size_t followed : {2u, 3u, 7u}) {
       const Options options{1, kernels_here()[(sweeps + followed) % kernels_here().size()], followed};

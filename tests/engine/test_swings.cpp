@@ -1,6 +1,6 @@
 // The swings of s and u that a study reads: equal between the SystemC array and every core.
 #include "tests/engine/engine_bench.h"
-#include "tests/support/dut.h"
+#include "tests/support/dut_job.h"
 
 namespace hopmesh::tests {
 namespace {
@@ -9,9 +9,7 @@ struct Bench {
   Bench(std::uint64_t seed_of_job, const ArrayJob& a_job)
       : seed(seed_of_job), job(a_job), dut(("dut" + std::to_string(seed)).c_str(), job.array, job.topology) {}
   void run_systemc() {
-    dut.put_codes(Window::WEIGHT, job.weight);
-    dut.put_codes(Window::BIAS, job.bias);
-    dut.put_codes(Window::OUTPUT, job.start);
+    load(dut, job);
     dut.start(job.threshold, job.max_sweeps);
     dut.run_until_done();
   }
@@ -19,7 +17,7 @@ struct Bench {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", " + text(options) + ": " + describe(job));
     engine::Engine e(job.array, job.topology, options);
     load(e, job);
-    e.run(job.threshold, job.max_sweeps);
+    e.run(job.threshold, job.max_sweeps, job.rule);
     const spec::Extremes& x = dut.device.cells.extremes;
     EXPECT_EQ(e.extremes().least_sum, x.least_sum);
     EXPECT_EQ(e.extremes().largest_sum, x.largest_sum);

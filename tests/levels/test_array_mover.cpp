@@ -126,7 +126,7 @@ TEST(ArrayMover, RefusesAnArrayOfVersionOne) {
   Rig rig(grid_scene(2, 2));
   rig.port.tell(HM_REG_VERSION, 0x00010001);
   const auto refusal = [&] { return complaint<std::runtime_error>([&] { rig.motion.advance(); }); };
-  EXPECT_EQ(refusal(), "the array's registers are of version 1.1; this program knows version 2.0");
+  EXPECT_EQ(refusal(), "the array's registers are of version 1.1; this program knows version 2.1");
   rig.port.tell(HM_REG_ID, 7);
   EXPECT_EQ(refusal(), "there is no Hopmesh array behind the bus");
   rig.port.tell(HM_REG_ID, HM_ID_VALUE);

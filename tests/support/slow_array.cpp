@@ -26,6 +26,7 @@ class SlowArray {
     ahead_ = state_;
     moved_.assign(state_.size(), 0);
     for (std::int32_t word : job.momentum) table_.push_back(kept_code(word, spec::momentum_format));
+    table_.resize(cosim::table_entries(job.array)); // what nobody wrote is 0
   }
 
   struct Largest {

@@ -1,4 +1,4 @@
-// One array built in every way that changes no bit.
+// An array built in every way that changes no bit.
 #pragma once
 
 #include "tests/systemc/register_table.h"

@@ -181,6 +181,7 @@ class Abuser {
   /// What the array keeps of a word.
   std::uint32_t kept(std::uint32_t address, std::uint32_t value) const {
     if (address == HM_REG_IRQ_ENABLE) return value & 3;
+    if (address == HM_REG_STOP) return value & 0x3F01;
     if (address < 0x1000) return value;
     const spec::Formats& f = array_.formats;
     const bool output = in("OUTPUT", address);

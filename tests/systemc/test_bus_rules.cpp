@@ -219,7 +219,7 @@ TEST_P(BusWidth, IsHeldForTwoCyclesByEveryRefusal) {
                                      {read, HM_REG_ID, 8, 8, data, false},
                                      {read, HM_REG_ID, 4, 4, nullptr, false},
                                      {read, HM_REG_ID, 4, 4, data, true},
-                                     {read, 0x7C, 4, 4, data, false},
+                                     {read, 0xC8, 4, 4, data, false},
                                      {read, dut.at(Window::BIAS) + 2, 16, 16, data, false},
                                      {write, dut.at(Window::LINK), 16, 16, data, false}};
   std::uint32_t held = dut.read(HM_REG_BUS_CYCLES_LO);

@@ -51,7 +51,7 @@ void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, s
     ASSERT_EQ(whole.sum_raw(), beats.sum_raw());
     ASSERT_EQ(whole.norm_raw(), beats.norm_raw());
     ASSERT_EQ(whole.sum_raw(), accumulate(array, format, weights, links, bias));
-    ASSERT_EQ(static_cast<Wide>(whole.norm_raw()), row_sum(array, weights, bias));
+    ASSERT_EQ(static_cast<Wide>(whole.norm_raw()), divisor(array, weights, 0, bias));
   }
 }
 

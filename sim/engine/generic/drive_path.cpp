@@ -111,7 +111,7 @@ void DrivePath::held_drives(const Rows& rows, std::int64_t* u) const {
   limit_held_lanes(u, beyond, plan_.most_drive);
 }
 
-// The same of one row, whatever its formats.
+// As limit_held_lanes leaves it, of a single row and whatever its formats.
 std::int64_t DrivePath::held_drive(const Rows& row, std::int64_t sum) const {
   const Int128 norm = *row.norm, limit = plan_.most_drive;
   if (norm == 0) return sum > 0 ? plan_.most_drive : sum < 0 ? -plan_.most_drive : 0;
