@@ -51,7 +51,9 @@ void expect_row(Dice& dice, const spec::ArraySpec& array, std::size_t sources, s
     ASSERT_EQ(whole.sum_raw(), beats.sum_raw());
     ASSERT_EQ(whole.norm_raw(), beats.norm_raw());
     ASSERT_EQ(whole.sum_raw(), accumulate(array, format, weights, links, bias));
-    ASSERT_EQ(static_cast<Wide>(whole.norm_raw()), divisor(array, weights, 0, bias));
+    if (spec::sums_norm(array)) { // elsewhere nobody divides by it
+      ASSERT_EQ(static_cast<Wide>(whole.norm_raw()), divisor(array, weights, 0, bias));
+    }
   }
 }
 
