@@ -18,7 +18,8 @@ struct StepLoad {
 /// A step whose runs end at the scene's limit.
 StepLoad longest_step(const scene::Scene& scene);
 
-FigureTable step_time_table(const spec::ArraySpec& array, const spec::Topology& topology, const StepLoad& step);
+FigureTable step_time_table(const spec::ArraySpec& array, const spec::Topology& topology,
+                            const StepLoad& step);
 FigureTable memory_table(const spec::ArraySpec& array, const spec::Topology& topology);
 FigureTable multiplier_table(const spec::ArraySpec& array, const spec::Topology& topology);
 

@@ -47,8 +47,7 @@ void ClockedEngine::step() {
                b.rows, plain_.sums);
   if (b.first_normalised < b.last_normalised)
     beats_.normalise(plain_.row + b.first_normalised, plain_.row + b.last_normalised);
-  if (b.first_pulled < b.last_pulled)
-    beats_.move(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
+  if (b.first_pulled < b.last_pulled) beats_.move(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
   beat_ += 1;
   result_.cycles += 1;
 }

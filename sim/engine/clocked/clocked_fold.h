@@ -92,9 +92,9 @@ class ClockedFold final : public ClockStepped {
   std::vector<std::uint32_t> neuron_, position_; ///< of each position; and the position of each neuron
   std::vector<std::size_t> first_tap_;           ///< of each position in weight_ and source_, and behind all
   std::vector<std::int32_t> weight_;
-  std::vector<std::uint32_t> source_; ///< the position that a tap reads
+  std::vector<std::uint32_t> source_;                       ///< the position that a tap reads
   AlignedVector<std::int32_t> bias_, state_, extrapolated_; ///< extrapolated_: of momentum
-  AlignedVector<std::int32_t> link_; ///< two banks in synchronous arrays
+  AlignedVector<std::int32_t> link_;                        ///< two banks in synchronous arrays
   std::size_t bank_ = 0, write_bank_ = 0;
   AlignedVector<std::int64_t> norm_, reciprocal_, multiplier_;
   std::vector<int> places_;

@@ -23,7 +23,7 @@ class CliVectors : public Cli {
     std::string text;
     bool changed = false;
     for (const std::string& old : lines_of(content_of(at(name)))) {
-      const bool here = !changed && old.rfind(key, 0) == 0;
+      const bool here = !changed && (old + '\n').rfind(key, 0) == 0;
       text += (here ? line : old) + "\n";
       changed = changed || here;
     }
@@ -34,7 +34,7 @@ class CliVectors : public Cli {
     int number = 0;
     for (const std::string& line : lines_of(content_of(at(name)))) {
       number += 1;
-      if (line.rfind(key, 0) == 0) return number;
+      if ((line + '\n').rfind(key, 0) == 0) return number;
     }
     return 0;
   }
@@ -206,7 +206,8 @@ const std::vector<Corruption> corruptions{
     {"Stop", "stop ", "stop sums", "found \"stop sums\", expected stop change or stop sum"},
     {"Share", "share ", "share 64", "found \"64\", expected share, an integer from 0 to 63"},
     {"SumThreshold", "sum_threshold ", "sum_threshold -1", "found \"-1\", expected sum_threshold"},
-    {"Momentum", "momentum ", "momentum 1 2 3 4 5 6 7", "7 words behind \"momentum\", expected momentum and"},
+    {"Momentum", "momentum\n", "momentum 1 2 3 4 5 6 7",
+     "7 words behind \"momentum\", expected momentum and"},
     {"Relaxation", "relaxation ", "relaxation 32", "relaxation: found 32, expected 1 to 31"},
     {"NeuronShort", "neuron 1 ", "neuron 1 0 0",
      "words behind \"neuron\", expected neuron 1, start, bias and"},
