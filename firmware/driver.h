@@ -14,7 +14,7 @@ extern "C" {
 
 /* How a relaxation ends. By change: with a sweep that moves no output by more than the threshold. By sum:
    with one whose largest |s|, of neurons that may still move, is at most `share` of the first sweep's, taken
-   as the power of two at or below (0: none), or at most what half a last place of the links is worth. */
+   as the power of two at or below (0: none), or at most what a last place of the links is worth. */
 typedef struct hm_stop {
   int by_sum;
   double share;

@@ -34,14 +34,15 @@ static double largest_row(const hm_driver* d, const hm_mesh* mesh, const hm_netw
   return largest * hm_power_of_two(d->shift);
 }
 
-/* What half a last place of every link is worth in s: nothing closer to rest can be told apart. */
+/* What a last place of every link is worth in s: a network whose links go to and fro between two codes about
+   its rest has sums of that size, and half of it is not always reached. */
 static int worth_of_a_place(const hm_driver* d, const hm_mesh* mesh, const hm_network* network,
                             uint64_t* worth) {
   const double most = 4611686018427387904.0; /* 2^62: no sum is larger */
   hm_format link, sum;
   TRY(hm_read_format(d, HM_REG_CAP_FORMAT_LINK, &link));
   TRY(hm_read_format(d, HM_REG_CAP_FORMAT_ACCUMULATOR, &sum));
-  const int places = hm_fraction_bits(&sum) - hm_fraction_bits(&link) - 1;
+  const int places = hm_fraction_bits(&sum) - hm_fraction_bits(&link);
   const double counted = largest_row(d, mesh, network) * hm_power_of_two(places);
   *worth = (uint64_t)(counted < most ? counted : most);
   return HM_OK;

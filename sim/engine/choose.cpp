@@ -45,7 +45,7 @@ std::size_t sweeps_to_follow(const spec::Topology& topology, std::size_t asked) 
 
 std::size_t chunk_cells(const spec::Topology& topology, spec::Schedule schedule, std::size_t asked) {
   constexpr std::size_t least = 512; // shorter chunks leave lanes empty
-  const bool follow = schedule == spec::Schedule::coloured && sweeps_to_follow(topology, asked) > 1;
+  const bool follow = schedule != spec::Schedule::sequential && sweeps_to_follow(topology, asked) > 1;
   return follow ? std::min(least, std::max<std::size_t>(1, topology.cells() / 8)) : 0;
 }
 

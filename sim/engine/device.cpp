@@ -151,7 +151,8 @@ void Device::read_codes(spec::Window window, std::uint64_t first, std::uint32_t*
     engine_.read_weights(first, words, count);
     break;
   case spec::Window::MOMENTUM:
-    break; // no words
+    engine_.read_momentum(first, words, count);
+    break;
   }
 }
 
@@ -161,6 +162,8 @@ void Device::write_codes(spec::Window window, std::uint64_t first, const std::ui
     engine_.write_biases(first, words, count);
   else if (window == spec::Window::OUTPUT)
     engine_.write_outputs(first, words, count);
+  else if (window == spec::Window::MOMENTUM)
+    engine_.write_momentum(first, words, count);
   else
     engine_.write_weights(first, words, count);
 }
@@ -170,6 +173,8 @@ void Device::write_codes(spec::Window window, std::uint64_t first, const std::ui
 // A low word takes its high one along.
 std::uint32_t Device::read_register(std::uint32_t offset) {
   if (offset == HM_REG_CYCLES_LO) reg(HM_REG_CYCLES_HI) = static_cast<std::uint32_t>(run_cycles_ >> 32);
+  if (offset == HM_REG_LARGEST_SUM_LO)
+    reg(HM_REG_LARGEST_SUM_HI) = static_cast<std::uint32_t>(largest_sum_ >> 32);
   if (offset == HM_REG_BUS_CYCLES_LO) {
     reg(HM_REG_BUS_CYCLES_LO) = static_cast<std::uint32_t>(held_ - held_at_reset_);
     reg(HM_REG_BUS_CYCLES_HI) = static_cast<std::uint32_t>((held_ - held_at_reset_) >> 32);

@@ -33,6 +33,7 @@ class Device : public HostBus {
   // Of the run at hand, as they were at START:
   std::uint32_t threshold() const { return threshold_; }
   std::uint32_t max_sweeps() const { return max_sweeps_; }
+  const spec::StopRule& stop_rule() const { return stop_rule_; }
   Engine& engine() { return engine_; }
   const Engine& engine() const { return engine_; }
 
@@ -73,13 +74,15 @@ class Device : public HostBus {
   const std::atomic<bool>& stop_;
   std::array<std::uint32_t, 64> registers_{};                   ///< by offset / 4
   std::vector<std::uint32_t> codes_;                            ///< of packed words on their way
-  std::uint64_t held_ = 0, held_at_reset_ = 0, run_cycles_ = 0; ///< run_cycles_: of the last run
+  std::uint64_t held_ = 0, held_at_reset_ = 0;
+  std::uint64_t run_cycles_ = 0, largest_sum_ = 0;              ///< of the last run
   std::uint64_t now_ = 0;                                       ///< cycle in which the next transfer begins
   std::uint64_t reset_until_ = 0, run_from_ = 0; ///< cycles; run_from_: in which START is taken
   bool running_ = false;
   bool begun_ = false; ///< and has been prepared
   bool aborted_ = false;
   std::uint32_t threshold_ = 0, max_sweeps_ = 1;
+  spec::StopRule stop_rule_;
   std::uint32_t last_sweep_ = 1; ///< at which it ends if it does not converge
 };
 

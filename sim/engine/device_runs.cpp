@@ -35,8 +35,9 @@ void Device::abort(std::uint64_t at) {
 void Device::reset() {
   reset_registers();
   held_at_reset_ = held_;
-  run_cycles_ = 0;
-  const std::vector<std::uint32_t> zeros(engine_.topology().weight_words(), 0);
+  run_cycles_ = largest_sum_ = 0;
+  const std::size_t table = map_[spec::Window::MOMENTUM].codes;
+  const std::vector<std::uint32_t> zeros(std::max(engine_.topology().weight_words(), table), 0);
   for (std::size_t k = 0; k < spec::window_count; ++k)
     if (spec::is_writable(static_cast<spec::Window>(k)) && map_.window[k].codes > 0)
       write_codes(static_cast<spec::Window>(k), 0, zeros.data(), map_.window[k].codes);
@@ -52,6 +53,9 @@ void Device::start() {
   run_from_ = std::max(now_, reset_until_);
   threshold_ = reg(HM_REG_THRESHOLD);
   max_sweeps_ = reg(HM_REG_MAX_SWEEPS);
+  stop_rule_ = {HM_FIELD(reg(HM_REG_STOP), STOP_BY_SUM) != 0,
+                static_cast<int>(HM_FIELD(reg(HM_REG_STOP), STOP_SHARE)),
+                std::uint64_t{reg(HM_REG_SUM_THRESHOLD_HI)} << 32 | reg(HM_REG_SUM_THRESHOLD_LO)};
   last_sweep_ = std::max(max_sweeps_, 1u);
 }
 
@@ -75,7 +79,7 @@ void Device::catch_up() {
 
 void Device::run_to(std::uint64_t sweeps, const std::atomic<bool>& stop) {
   if (sweeps == 0) return;
-  if (!begun_) engine_.begin_run(threshold_, max_sweeps_);
+  if (!begun_) engine_.begin_run(threshold_, max_sweeps_, stop_rule_);
   begun_ = true;
   const auto last = static_cast<std::uint32_t>(std::min<std::uint64_t>(sweeps, last_sweep_));
   const bool over = engine_.advance(stop, last);
@@ -103,6 +107,8 @@ void Device::finish() {
   reg(HM_REG_SWEEPS) = r.sweeps;
   reg(HM_REG_LARGEST_CHANGE) = r.largest_change;
   run_cycles_ = r.cycles;
+  largest_sum_ = r.largest_sum;
+  reg(HM_REG_LARGEST_SUM_LO) = static_cast<std::uint32_t>(largest_sum_);
   reg(HM_REG_CYCLES_LO) = static_cast<std::uint32_t>(run_cycles_);
   reg(HM_REG_IRQ_STATUS) |= HM_IRQ_DONE;
   running_ = false;

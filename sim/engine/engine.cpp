@@ -11,8 +11,9 @@ Engine::Engine(const spec::ArraySpec& array, const spec::Topology& topology, con
       cycles_(spec::cycle_model(array, topology, phases_of_sweep_)), plan_(array, topology),
       layout_(topology, phases_of_sweep_, array.schedule,
               chunk_cells(topology, array.schedule, options.followed)),
+      rule_(spec::has_momentum(array) ? static_cast<std::size_t>(array.momentum_entries) : 0),
       core_(make_core(plan_, layout_, options.kernel)),
-      sweeper_(*core_, layout_, array.schedule, std::max<std::size_t>(options.threads, 1),
+      sweeper_(*core_, layout_, rule_, std::max<std::size_t>(options.threads, 1),
                sweeps_to_follow(topology, options.followed)) {}
 
 std::string Engine::why_no_kernel() const {
@@ -71,8 +72,17 @@ void Engine::read_outputs(std::size_t first, std::uint32_t* words, std::size_t c
   }
 }
 
-void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps) {
-  threshold_ = threshold;
+void Engine::write_momentum(std::size_t first, const std::uint32_t* words, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    rule_.table()[first + k] = kept_bits(words[k], spec::momentum_format);
+}
+
+void Engine::read_momentum(std::size_t first, std::uint32_t* words, std::size_t count) const {
+  for (std::size_t k = 0; k < count; ++k) words[k] = static_cast<std::uint32_t>(rule_.table()[first + k]);
+}
+
+void Engine::begin_run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule) {
+  rule_.begin(threshold, rule);
   max_sweeps_ = std::max(max_sweeps, 1u);
   result_ = {};
   sweeper_.prepare();
@@ -82,17 +92,18 @@ bool Engine::advance(const std::atomic<bool>& stop, std::uint32_t most) {
   const std::uint32_t end = std::min(max_sweeps_, most);
   if (result_.sweeps >= end) return result_.converged || result_.sweeps == max_sweeps_;
   SweepResult swept;
-  result_.sweeps += sweeper_.relax(threshold_, end - result_.sweeps, stop, swept);
+  result_.sweeps += sweeper_.relax(end - result_.sweeps, stop, swept);
   extremes_.merge(swept.extremes);
-  result_.largest_change = static_cast<std::uint32_t>(swept.largest_change);
-  result_.converged = swept.largest_change <= threshold_;
+  result_.largest_change = static_cast<std::uint32_t>(swept.detected.largest_change);
+  result_.largest_sum = static_cast<std::uint64_t>(swept.detected.largest_sum);
+  result_.converged = swept.over;
   result_.cycles = cycles_.run(result_.sweeps);
   return result_.converged || result_.sweeps == max_sweeps_;
 }
 
-spec::Relaxation Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps) {
+spec::Relaxation Engine::run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule) {
   static const std::atomic<bool> never{false};
-  begin_run(threshold, max_sweeps);
+  begin_run(threshold, max_sweeps, rule);
   advance(never);
   return result_;
 }

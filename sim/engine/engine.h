@@ -36,13 +36,16 @@ class Engine {
   void read_weights(std::size_t first, std::uint32_t* words, std::size_t count) const;
   void read_biases(std::size_t first, std::uint32_t* words, std::size_t count) const;
   void read_outputs(std::size_t first, std::uint32_t* words, std::size_t count) const;
+  // The table of m, of an array that has one.
+  void write_momentum(std::size_t first, const std::uint32_t* words, std::size_t count);
+  void read_momentum(std::size_t first, std::uint32_t* words, std::size_t count) const;
 
   /// Prepares a run; `advance` then goes on until it is over, until it has had `most` sweeps, or until `stop`
   /// says so between two sweeps: true when over. A run that was stopped goes on where it was.
-  void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  void begin_run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule = {});
   bool advance(const std::atomic<bool>& stop, std::uint32_t most = UINT32_MAX);
   /// begin_run and advance in one call, without a stop.
-  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps);
+  spec::Relaxation run(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule = {});
   const spec::Relaxation& result() const { return result_; }
 
   /// The widest swings of s and u over all runs.
@@ -62,9 +65,10 @@ class Engine {
   const spec::CycleModel cycles_;
   const NeuronPlan plan_;
   const Layout layout_;
+  RunRule rule_;
   std::unique_ptr<SweepCore> core_;
   Sweeper sweeper_;
-  std::uint32_t threshold_ = 0, max_sweeps_ = 1;
+  std::uint32_t max_sweeps_ = 1;
   spec::Relaxation result_;
   spec::Extremes extremes_;
 };

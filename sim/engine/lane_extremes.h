@@ -10,6 +10,8 @@ namespace hopmesh::engine {
 struct alignas(64) LaneExtremes {
   std::uint32_t largest_change[16] = {};
   std::int64_t least_sum[8] = {}, largest_sum[8] = {}, least_drive[8] = {}, largest_drive[8] = {};
+  std::int64_t largest_moving[8] = {}; ///< |s| of neurons that may still move, where it is asked for
+  std::int64_t along[8] = {};          ///< sums of sign(s) Delta V, of momentum
 };
 
 } // namespace hopmesh::engine

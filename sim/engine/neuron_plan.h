@@ -16,12 +16,20 @@ struct NeuronPlan : spec::Points {
   spec::Normaliser normaliser;
   int lanes, reciprocal_bits, neurons_per_cell;
   bool exact;  ///< the accumulator loses nothing
+  spec::Output output;
   bool binary; ///< u is the sign of s, and nothing is normalised
+  /// s is multiplied by gain * 2^-gain_places before it is divided: omega, or one.
+  int gain, gain_places;
+  /// Projected and momentum: u is limited before it is rounded, and no stage pulls V to a bound. From so many
+  /// times the divisor on, s makes a u at its limit whatever is cut off on the way; else 0.
+  int hold;
   std::size_t most_taps;
 
-  int norm_bits;         ///< bits of the largest N that codes of these formats can make
-  int multiplier_places; ///< of s times the reciprocal of such an N, behind the drive's last place
+  int norm_bits;         ///< bits of the largest divisor, N or |w_ii|, that codes of these formats can make
+  int norm_up;           ///< from the divisor's last place to that of s
+  int multiplier_places; ///< of s times gain and reciprocal of such an N, behind the drive's last place
   std::int64_t one_state, one_drive, one_link;
+  std::int64_t most_drive; ///< the limit of |u|
 };
 
 } // namespace hopmesh::engine

@@ -8,6 +8,7 @@
 #include "sim/engine/neuron_plan.h"
 
 #include <memory>
+#include <numeric>
 
 namespace hopmesh::engine {
 
@@ -15,13 +16,22 @@ namespace hopmesh::engine {
 /// both.
 struct SweepRecord {
   LaneExtremes lanes;
-  std::int64_t largest = 0; ///< |Delta V|
+  std::int64_t largest = 0;        ///< |Delta V|
+  std::int64_t largest_moving = 0; ///< |s| of neurons that may still move, where it is asked for
+  std::int64_t along = 0;          ///< the sum of sign(s) Delta V, of momentum
   spec::Extremes extremes;
 
   std::int64_t largest_change() const {
     std::int64_t most = largest;
     for (std::uint32_t change : lanes.largest_change) most = std::max<std::int64_t>(most, change);
     return most;
+  }
+  std::int64_t largest_sum() const {
+    return std::max(largest_moving,
+                    *std::max_element(std::begin(lanes.largest_moving), std::end(lanes.largest_moving)));
+  }
+  std::int64_t all_along() const {
+    return std::accumulate(std::begin(lanes.along), std::end(lanes.along), along);
   }
   spec::Extremes all_extremes() const {
     spec::Extremes all = extremes;
@@ -30,9 +40,17 @@ struct SweepRecord {
     return all;
   }
   void begin_sweep() {
-    largest = 0;
+    largest = largest_moving = along = 0;
     std::fill(std::begin(lanes.largest_change), std::end(lanes.largest_change), 0u);
+    std::fill(std::begin(lanes.largest_moving), std::end(lanes.largest_moving), 0);
+    std::fill(std::begin(lanes.along), std::end(lanes.along), 0);
   }
+};
+
+/// What the blocks of a sweep are told.
+struct SweepOrder {
+  std::uint32_t ahead = 0;   ///< sweeps begun before this one that end_sweeps() has not ended yet
+  std::int32_t momentum = 0; ///< m, a code of spec::momentum_format
 };
 
 /// Codes are those that the array's memories hold: in range, |V| <= 1. A slot is a cell's place in the
@@ -51,12 +69,14 @@ class SweepCore {
 
   /// N of every row and its reciprocal, for blocks [first, last).
   virtual void prepare(std::size_t first, std::size_t last) = 0;
-  /// Called after all blocks were prepared and before the first sweep.
-  virtual void begin_run() {}
+  /// Called after all blocks were prepared and before the first sweep. `by_sum`: the largest |s| is asked for.
+  virtual void begin_run(bool by_sum) = 0;
   /// Fires every neuron of the blocks [first, last), as if one after the other; of one group or of several.
-  virtual void fire(std::size_t first, std::size_t last, SweepRecord& record) = 0;
-  /// Called after the last group of a sweep: synchronous arrays show their new outputs now.
-  virtual void end_sweep() {}
+  virtual void fire(std::size_t first, std::size_t last, const SweepOrder& order, SweepRecord& record) = 0;
+  /// Called after the last groups of so many sweeps: synchronous arrays show their new outputs now.
+  virtual void end_sweeps(std::uint32_t /*count*/) {}
+  /// Momentum: Y takes the value of V, and neighbours see it.
+  virtual void restart() {}
 
   /// Keep the outputs as they are now, and bring them back when sweeps went too far.
   virtual void keep_outputs() = 0;

@@ -67,11 +67,16 @@ reference::Neuron neuron_of(spec::Output output) {
   }
 }
 
+double half_place(const spec::NumberFormat& format) {
+  return std::ldexp(0.5, -format.fraction_bits());
+}
+
 } // namespace
 
 reference::NeuronRule rule_of(const spec::ArraySpec& array, const std::vector<double>& momentum) {
   constexpr double sixteenth = 1.0 / 16; // of which the key tells a number
   reference::NeuronRule rule{neuron_of(array.output), array.relaxation * sixteenth, momentum};
+  rule.nearness = half_place(array.formats.link); // what links show as the bound
   if (momentum.empty()) rule.momentum = reference::fista(static_cast<std::size_t>(array.momentum_entries));
   return rule;
 }

@@ -36,6 +36,8 @@ struct NeuronRule {
   double relaxation = 29.0 / 16; ///< omega; counts with `projected`, 0 to 2
   /// m of a run's sweeps, one after the other; the last one holds on. Counts with `momentum`; empty: none.
   std::vector<double> momentum = {};
+  /// An output so near a bound stands there for others: the paper's neuron comes no further than near.
+  double nearness = 0;
 };
 
 /// m_k = (t_k - 1) / t_(k+1) with t_0 = 1 and t_(k+1) = (1 + sqrt(1 + 4 t_k^2)) / 2 (Beck and Teboulle 2009).
@@ -46,7 +48,8 @@ struct Stop {
   double threshold = 0; ///< behind a sweep in which no output moves by more
   std::uint32_t max_sweeps = 0;
   /// Instead of the threshold: behind a sweep in which no neuron that may still move has a larger |s| than
-  /// this share of the largest in the run's first sweep.
+  /// this share of the largest in the run's first sweep. A neuron may not move that stands at a bound, by
+  /// NeuronRule::nearness, and whose s pushes it there.
   std::optional<double> share = {};
 };
 

@@ -33,11 +33,6 @@ double in_box(double V) {
   return std::clamp(V, -1.0, 1.0);
 }
 
-/// False at a bound that s pushes against, or leaves alone. `from`: where the neuron was when s was summed.
-bool may_move(double s, double from) {
-  return !(from >= 1 && s >= 0) && !(from <= -1 && s <= 0);
-}
-
 Vector divisors(const Network& network, Neuron neuron) {
   switch (neuron) {
   case Neuron::projected:
@@ -79,6 +74,12 @@ void Sweeper::fire_together(const std::vector<std::uint32_t>& phase) {
     agreement_ += sign(s) * change_[neuron];
     swept_.largest_change = std::max(swept_.largest_change, std::abs(change_[neuron]));
   }
+}
+
+// Not from a bound that s pushes against, or leaves alone. `from`: where the neuron was when s was summed.
+bool Sweeper::may_move(double s, double from) const {
+  const double bound = 1 - rule_.nearness;
+  return !(from >= bound && s >= 0) && !(from <= -bound && s <= 0);
 }
 
 double Sweeper::fired(Eigen::Index neuron, double s) const {

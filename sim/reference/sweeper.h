@@ -24,6 +24,7 @@ class Sweeper {
 
  private:
   void fire_together(const std::vector<std::uint32_t>& phase);
+  bool may_move(double s, double from) const;
   double fired(Eigen::Index neuron, double s) const;
   void look_ahead();
 

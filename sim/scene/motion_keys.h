@@ -120,7 +120,7 @@ inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, 
           "how often a step expands the energy anew about the outputs it came to"),
       Key("relax.stop", spec::choice(r.stop, stop_names),
           "what tells rest: how far outputs move, or the inputs s of neurons that may still move"),
-      Key("relax.share", &r.share, {0, 0.5, ""},
+      Key("relax.share", &r.share, {0, 0.5, "a number from 0 to 0.5"},
           "a sweep whose largest |s| is at most this share of the first sweep's is the last one, and so is "
           "one at what a last place of the link is worth; arrays take the power of two at or below")
           .counts({r.stop == Stop::sum, "relax.stop = \"sum\""}),

@@ -29,6 +29,11 @@ const GridNetwork& flag(std::size_t rows, const std::string& array,
   return at->second;
 }
 
+std::vector<std::string> output_keys(const std::string& output) {
+  const std::string schedule = output == "momentum" ? "synchronous" : "coloured";
+  return {"array.output=" + output, "array.schedule=" + schedule};
+}
+
 void relax(benchmark::State& state, const GridNetwork& network, const Options& options) {
   Engine e(network.array, network.topology, options);
   network.load(e);
@@ -117,6 +122,11 @@ void register_all() {
     add(std::string("kernel/") + kernel, [=](benchmark::State& s) {
       relax(s, flag(20, ""), {1, kernel, 1});
     });
+  for (std::size_t rows : {20, 40, 100, 1000})
+    for (const char* output : {"projected", "momentum"})
+      add(std::string(output) + "/" + std::to_string(rows * rows), [=](benchmark::State& s) {
+        relax(s, flag(rows, "", output_keys(output)), {1, "auto", 1});
+      });
   for (const char* array : {"descent", "prescaled", "byte"})
     add(std::string("array/") + array, [=](benchmark::State& s) {
       relax(s, flag(20, array), {1, "auto", 1});

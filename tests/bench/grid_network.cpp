@@ -17,6 +17,7 @@ void GridNetwork::load(engine::Engine& e) const {
   e.write_weights(0, words(weights), weights.size());
   e.write_biases(0, words(biases), biases.size());
   e.write_outputs(0, words(start), start.size());
+  e.write_momentum(0, words(momentum), momentum.size());
 }
 
 GridNetwork scene_network(const std::string& scene, int step, const std::string& array,
@@ -25,7 +26,10 @@ GridNetwork scene_network(const std::string& scene, int step, const std::string&
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p);
   for (int k = 0; k <= step; ++k) level.mover->advance();
   const levels::BusArray loaded(level.port->bus(), p.mesh->topology());
-  return {p.inputs.array, p.mesh->topology(), loaded.weights(), loaded.biases(), level.array->start_raw()};
+  const spec::ArraySpec& a = p.inputs.array;
+  std::vector<std::int32_t> momentum;
+  if (spec::has_momentum(a)) momentum = loaded.momentum(static_cast<std::size_t>(a.momentum_entries));
+  return {a, p.mesh->topology(), loaded.weights(), loaded.biases(), level.array->start_raw(), momentum};
 }
 
 GridNetwork grid_network(std::size_t rows, std::size_t columns, int step, const std::string& array,

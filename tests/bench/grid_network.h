@@ -11,6 +11,7 @@ struct GridNetwork {
   spec::ArraySpec array;
   spec::Topology topology;
   std::vector<std::int32_t> weights, biases, start; ///< on the bus, Topology order
+  std::vector<std::int32_t> momentum;               ///< the table of m, of an array that has one
 
   std::size_t neurons() const { return topology.neurons(); }
   void load(engine::Engine& engine) const;

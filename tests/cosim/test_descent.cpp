@@ -122,6 +122,7 @@ ArrayJob stepping_job(std::uint64_t seed, spec::ArraySpec array) {
   make_symmetric(job);
   hold_back(dice, job);
   if (dice.one_in(3)) std::fill(job.bias.begin(), job.bias.end(), 0);
+  job.momentum.assign(cosim::table_entries(array), 0); // as the driver's sequence begins
   const std::int64_t one = array.formats.state.one_raw();
   for (auto& V : job.start) V = static_cast<std::int32_t>(std::clamp<std::int64_t>(V, -one, one));
   return job;

@@ -120,12 +120,12 @@ class StopBySum : public Stages {
     ASSERT_EQ(bus.outstanding(), 0u);
   }
 
-  spec::NumberFormat link{16, 2, spec::Rounding::rnd, spec::Overflow::sat};  // half a place: 2^-15
+  spec::NumberFormat link{16, 2, spec::Rounding::rnd, spec::Overflow::sat};  // a place: 2^-14
   spec::NumberFormat sum{39, 10, spec::Rounding::trn, spec::Overflow::wrap}; // a place: 2^-29
 };
 
-// 1.125 * 2^-15 in units of 2^-29.
-constexpr std::uint64_t floor_of_two = 18432;
+// 1.125 * 2^-14 in units of 2^-29.
+constexpr std::uint64_t floor_of_two = 36864;
 
 TEST_F(StopBySum, SharesAreThePowerOfTwoAtOrBelow) {
   struct Case {
@@ -140,9 +140,9 @@ TEST_F(StopBySum, SharesAreThePowerOfTwoAtOrBelow) {
   }
 }
 
-TEST_F(StopBySum, TheFloorIsWhatHalfAPlaceOfTheLinksIsWorth) {
-  const std::vector<std::pair<int, std::uint64_t>> cases{
-      {29, 18432}, {16, 2}, {15, 1}, {14, 0}, {60, 18432ull << 31}};
+TEST_F(StopBySum, TheFloorIsWhatAPlaceOfTheLinksIsWorth) {
+  const std::vector<std::pair<int, std::uint64_t>> cases{{29, 36864}, {16, 4}, {15, 2},
+                                                         {14, 1},     {13, 0}, {60, 36864ull << 31}};
   for (const auto& [fraction, floor] : cases) {
     sum.width = fraction + 2, sum.integer_bits = 2;
     open_with({});
@@ -185,7 +185,7 @@ TEST_F(StopBySum, PrescaledRowsAreWorthNoMoreThanTheirShare) {
   expect_bursts(true, array.biases, codes(mesh.bias, 0, array.bias));
   expect_bursts(true, array.outputs, codes(mesh.output, 0, array.state));
   mesh.weight = weight, mesh.bias = bias;
-  expect_floor(8192); // 0.5 * 2^14
+  expect_floor(16384); // 0.5 * 2^15
   bus.expect_write(HM_REG_STOP, 1);
   expect_run();
   EXPECT_EQ(relax(0, 9), HM_OK);

@@ -1,4 +1,4 @@
-// Boxed problems by the stages that come to a bound at once, stopped by the inputs of neurons that may still
+// Boxed problems by every output stage, stopped by the inputs of neurons that may still
 // move: at the KKT points, whatever the bounds hold.
 #include "rtl_model/spec/presets.h"
 #include "sim/levels/networks/network_level.h"
@@ -25,7 +25,7 @@ TEST_P(StoppedProblem, isAtRestInDouble) {
   const levels::GivenNetwork network({p.W, p.bias, p.start}, 0);
   const BoxAnswer answer = least_on_box(p.W, p.bias, p.start);
   ASSERT_TRUE(answer.solved);
-  for (const auto output : {spec::Output::projected, spec::Output::momentum}) {
+  for (const auto output : {spec::Output::modified, spec::Output::projected, spec::Output::momentum}) {
     SCOPED_TRACE(spec::name_of(output));
     const levels::RelaxOptions options{2, 1'000'000, 1e-9}; // any move is below that threshold
     const auto level = levels::reference_level(network, array_with(output), options);

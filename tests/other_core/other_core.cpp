@@ -101,13 +101,13 @@ struct Core : BuiltCore {
   }
 
   void fire(std::size_t i, const std::vector<Wide>& seen) {
-    const Wide one = Wide{1} << state.fraction, s = accumulate(i, seen);
-    const Wide from = output == "momentum" ? Y[i] : V[i], after = output_after(i, driven(i, s));
+    const Wide bound = Wide{1} << link.fraction, s = accumulate(i, seen);
+    const bool held = (seen[i] == bound && s >= 0) || (seen[i] == -bound && s <= 0);
+    const Wide after = output_after(i, driven(i, s));
     moves[i] = after - V[i];
     V[i] = after;
     show(i, after);
     largest_move = std::max(largest_move, magnitude(moves[i]));
-    const bool held = (from == one && s >= 0) || (from == -one && s <= 0);
     if (by_sum && !held) largest_sum = std::max(largest_sum, magnitude(s));
     along += s > 0 ? moves[i] : s < 0 ? -moves[i] : 0;
   }

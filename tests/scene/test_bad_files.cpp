@@ -124,7 +124,7 @@ TEST(BadNames, getTheNearestShippedOne) {
               ::testing::EndsWith("(did you mean flag-400?)"));
   EXPECT_EQ(complaint([] { read_inputs("flag-400", "descend", {}); }),
             "array: found \"descend\", expected an array file, or \"guarded\", \"descent\", \"prescaled\", "
-            "\"byte\" or \"folded\" "
+            "\"byte\", \"folded\", \"descent-projected\" or \"descent-momentum\" "
             "(did you mean descent?)");
 }
 

@@ -62,14 +62,21 @@ class SlowArray {
       }
     const std::int64_t bias = kept_code(job_.bias[neuron], job_.array.formats.bias);
     const std::int64_t s = accumulate(job_.array, accumulator_, weight, link, bias);
+    note_sum(s, before[neuron]);
     move(neuron, s, drive(job_.array, accumulator_, s, divisor(job_.array, weight, p, bias)));
+  }
+
+  /// Of a neuron that may still move; `shown`: what links showed of it as s was summed.
+  void note_sum(std::int64_t s, std::int64_t shown) {
+    const std::int64_t one = std::int64_t{1} << job_.array.formats.link.fraction_bits();
+    const bool held = (shown == one && s >= 0) || (shown == -one && s <= 0);
+    if (!held) largest_.sum = std::max(largest_.sum, static_cast<std::uint64_t>(magnitude_of(s)));
   }
 
   void move(std::uint32_t neuron, std::int64_t s, std::int64_t u) {
     const spec::Formats& f = job_.array.formats;
     const bool momentum = job_.array.output == spec::Output::momentum;
     const std::int64_t before = state_[neuron], from = momentum ? ahead_[neuron] : before;
-    const std::int64_t one = std::int64_t{1} << f.state.fraction_bits();
     std::int64_t& after = state_[neuron];
     if (momentum || job_.array.output == spec::Output::projected)
       after = stepped(f, from, u);
@@ -78,8 +85,6 @@ class SlowArray {
     moved_[neuron] = after - before;
     link_[neuron] = link_code(f, after);
     largest_.change = std::max(largest_.change, moved_[neuron] < 0 ? -moved_[neuron] : moved_[neuron]);
-    const bool held = (from == one && s >= 0) || (from == -one && s <= 0);
-    if (!held) largest_.sum = std::max(largest_.sum, static_cast<std::uint64_t>(magnitude_of(s)));
     agreement_ += s > 0 ? moved_[neuron] : s < 0 ? -moved_[neuron] : 0;
   }
 

@@ -91,6 +91,8 @@ inline ArrayJob lively_job(std::uint64_t seed, const spec::ArraySpec& array, con
         dice.between(array.formats.bias.min_raw() / 64, array.formats.bias.max_raw() / 64));
   const std::int64_t one = array.formats.state.one_raw();
   for (auto& v : job.start) v = static_cast<std::int32_t>(dice.between(-one / 2, one / 2));
+  for (std::size_t k = 0; k < cosim::table_entries(array); ++k)
+    job.momentum.push_back(static_cast<std::int32_t>(dice.between(-16000, 32767)));
   job.threshold = 0;
   job.max_sweeps = 3;
   return job;

@@ -6,43 +6,35 @@
 namespace hopmesh::tests {
 namespace {
 
-using spec::Normaliser;
 using spec::Schedule;
 using systemc::Waking;
-
-/// In place of a normaliser.
-constexpr int binary = 3;
 
 class ToTheCycle : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(ToTheCycle, OutputsDoneAndCountersChangeWhenPromised) {
   Benches benches;
-  const auto [schedule, normaliser] = GetParam();
+  const auto [schedule, kind] = GetParam();
   // Rows of 6 to 15 taps: short rows wait for the longest of their phase.
   const spec::Topology star = topology_of(6, 3, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}});
   for (int lanes : {1, 2, 3, 7, 27})
     for (Waking waking : {Waking::by_phase, Waking::by_clock}) {
-      spec::ArraySpec array = spec::guarded_array();
-      array.schedule = static_cast<Schedule>(schedule);
-      array.normaliser = static_cast<Normaliser>(normaliser % 3);
-      if (normaliser == binary) array.output = spec::Output::binary;
+      spec::ArraySpec array = array_with(stage_kinds[kind], static_cast<Schedule>(schedule));
       array.lanes = lanes;
       ArrayJob job = lively_job(20 + lanes, array, star);
       job.max_sweeps = lanes == 27 ? 0 : 3; // 0 is taken as 1
       if (lanes == 7) job.max_sweeps = 2;
       if (lanes == 27) job.max_sweeps = 2;
+      if (lanes == 3) job.rule = {true, 0, 1}; // LARGEST_SUM is told then
       benches.push_back(std::make_unique<Bench>("dut" + std::to_string(benches.size()), job, waking));
     }
   run_beside_each_other(benches);
 }
 
 std::string names(const testing::TestParamInfo<std::tuple<int, int>>& param) {
-  const auto [schedule, normaliser] = param.param;
-  return std::string(spec::schedule_names[schedule]) + "_" +
-         std::string(normaliser == binary ? "binary" : spec::normaliser_names[normaliser]);
+  const auto [schedule, kind] = param.param;
+  return std::string(spec::schedule_names[schedule]) + "_" + stage_kinds[kind].name;
 }
-INSTANTIATE_TEST_SUITE_P(All, ToTheCycle, testing::Combine(testing::Range(0, 3), testing::Range(0, 4)),
-                         names);
+INSTANTIATE_TEST_SUITE_P(All, ToTheCycle, testing::ValuesIn(schedules_and_stages()), names);
 
 TEST(Stops, ByThresholdByCountAndZeroIsOne) {
   Benches benches;

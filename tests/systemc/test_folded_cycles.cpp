@@ -7,22 +7,17 @@ namespace {
 
 using systemc::Waking;
 
-/// In place of a normaliser.
-constexpr int binary = 3;
-
-class FoldedToTheCycle : public testing::TestWithParam<std::tuple<int, int, int>> {};
+class FoldedToTheCycle : public testing::TestWithParam<std::tuple<std::tuple<int, int>, int>> {};
 
 TEST_P(FoldedToTheCycle, OutputsDoneAndCountersChangeWhenPromised) {
   Benches benches;
-  const auto [schedule, normaliser, stages] = GetParam();
+  const auto [numbers, stages] = GetParam();
+  const auto [schedule, kind] = numbers;
   // Rows of 6 to 15 taps, of 2 to 18 neurons a phase.
   const spec::Topology star = topology_of(6, 3, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}});
   const auto add = [&](int elements, int lanes, int registers) {
     for (Waking waking : {Waking::by_phase, Waking::by_clock}) {
-      spec::ArraySpec array = spec::guarded_array();
-      array.schedule = static_cast<spec::Schedule>(schedule);
-      array.normaliser = static_cast<spec::Normaliser>(normaliser % 3);
-      if (normaliser == binary) array.output = spec::Output::binary;
+      spec::ArraySpec array = array_with(stage_kinds[kind], static_cast<spec::Schedule>(schedule));
       array.lanes = lanes;
       array.elements = elements;
       array.stages = static_cast<spec::Stages>(stages);
@@ -38,24 +33,25 @@ TEST_P(FoldedToTheCycle, OutputsDoneAndCountersChangeWhenPromised) {
   run_beside_each_other(benches);
 }
 
-std::string names(const testing::TestParamInfo<std::tuple<int, int, int>>& param) {
-  const auto [schedule, normaliser, stages] = param.param;
-  return std::string(spec::schedule_names[schedule]) + "_" +
-         std::string(normaliser == binary ? "binary" : spec::normaliser_names[normaliser]) + "_" +
+std::string names(const testing::TestParamInfo<std::tuple<std::tuple<int, int>, int>>& param) {
+  const auto [numbers, stages] = param.param;
+  const auto [schedule, kind] = numbers;
+  return std::string(spec::schedule_names[schedule]) + "_" + stage_kinds[kind].name + "_" +
          std::string(spec::stages_names[stages]);
 }
 INSTANTIATE_TEST_SUITE_P(All, FoldedToTheCycle,
-                         testing::Combine(testing::Range(0, 3), testing::Range(0, 4), testing::Range(0, 2)),
+                         testing::Combine(testing::ValuesIn(schedules_and_stages()), testing::Range(0, 2)),
                          names);
 
 /// Registers of stages that neurons have for themselves.
 TEST(Pipelined, OutputsOfCellsChangeWhenPromised) {
   Benches benches;
-  for (int normaliser = 0; normaliser < 3; ++normaliser)
+  for (const StageKind& kind : stage_kinds)
     for (int registers = 1; registers <= 4; ++registers)
       for (Waking waking : {Waking::by_phase, Waking::by_clock}) {
-        spec::ArraySpec array = spec::guarded_array();
-        array.normaliser = static_cast<spec::Normaliser>(normaliser);
+        const bool at_once = kind.output == spec::Output::momentum;
+        spec::ArraySpec array =
+            array_with(kind, at_once ? spec::Schedule::synchronous : spec::Schedule::coloured);
         if (registers > spec::most_pipeline(array)) continue;
         array.pipeline = registers;
         ArrayJob job = lively_job(90, array, ring_topology(5));

@@ -12,38 +12,56 @@ using spec::Output;
 
 /// Cells alone, one neuron each: w_ii = -1 (less a place), so that a step halves nothing but ends at once
 /// with `projected`; what they have left is what they began with.
-TEST(LargestSum, IsOfNeuronsThatMayStillMove) {
-  const spec::Topology apart = topology_of(3, 1, {});
-  for (Output output : {Output::modified, Output::binary, Output::projected, Output::momentum}) {
-    spec::ArraySpec array = spec::descent_array();
-    array.output = output;
-    if (output == Output::momentum) array.schedule = spec::Schedule::synchronous, array.momentum_entries = 1;
-    const auto duts = every_way(array, apart);
-    for (const auto& dut : duts) {
-      SCOPED_TRACE(std::string(name_of(output)));
-      const std::int32_t one = 16384;
-      // s = I + w V, in 2^-29: a bias of b is b * 2^14. Neuron 0 is held at 1, neuron 1 at -1, neuron 2 is
-      // free. A weight of 0 leaves s as it is.
-      dut->put_codes(Window::WEIGHT, {0, 0, 0});
-      dut->put_codes(Window::BIAS, {30000, -20000, 77});
-      dut->put_codes(Window::OUTPUT, {one, -one, 0});
-      dut->write(HM_REG_STOP, HM_MASK_STOP_BY_SUM);
-      dut->start(1u << 30, 1); // by change, this would end as converged
-      dut->run_until_done();
-      EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 77u << 14);
-      EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_HI), 0u);
-      EXPECT_FALSE(dut->read(HM_REG_STATUS) & HM_STATUS_CONVERGED);
-      dut->put_codes(Window::OUTPUT, {one, -one, one}); // all held
-      dut->start(0, 9);
-      dut->run_until_done();
-      EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 0u);
-      EXPECT_EQ(dut->read(HM_REG_SWEEPS), 1u);
-      EXPECT_TRUE(dut->read(HM_REG_STATUS) & HM_STATUS_CONVERGED);
-      dut->write(HM_REG_STOP, 0);
-      dut->put_codes(Window::OUTPUT, {0, 0, 0});
+class LargestSumOf : public testing::TestWithParam<int> {};
+
+TEST_P(LargestSumOf, NeuronsThatMayStillMove) {
+  spec::ArraySpec array = spec::descent_array();
+  array.output = static_cast<Output>(GetParam());
+  array.momentum_entries = 1;
+  if (array.output == Output::momentum) array.schedule = spec::Schedule::synchronous;
+  const std::int32_t one = 16384;
+  for (const auto& dut : every_way(array, topology_of(3, 1, {}))) {
+    // s in 2^-29: a bias of b is b * 2^14. Neuron 0 is held at 1, neuron 1 at -1, neuron 2 is free.
+    dut->put_codes(Window::WEIGHT, {0, 0, 0});
+    dut->put_codes(Window::BIAS, {30000, -20000, 77});
+    dut->put_codes(Window::OUTPUT, {one, -one, 0});
+    dut->write(HM_REG_STOP, HM_MASK_STOP_BY_SUM);
+    dut->start(1u << 30, 1); // by change, this would end as converged
+    dut->run_until_done();
+    EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 77u << 14);
+    EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_HI), 0u);
+    EXPECT_FALSE(dut->read(HM_REG_STATUS) & HM_STATUS_CONVERGED);
+    dut->put_codes(Window::OUTPUT, {one, -one, one}); // all held
+    dut->start(0, 9);
+    dut->run_until_done();
+    EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 0u);
+    EXPECT_EQ(dut->read(HM_REG_SWEEPS), 1u);
+    EXPECT_TRUE(dut->read(HM_REG_STATUS) & HM_STATUS_CONVERGED);
+    dut->write(HM_REG_STOP, 0);
+    dut->put_codes(Window::OUTPUT, {0, 0, 0});
+    dut->start(0, 1);
+    dut->run_until_done();
+    EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 0u); // nothing is compared
+  }
+}
+
+std::string output_name(const testing::TestParamInfo<int>& info) {
+  return std::string(spec::output_names[static_cast<std::size_t>(info.param)]);
+}
+INSTANTIATE_TEST_SUITE_P(EveryOutput, LargestSumOf, testing::Range(0, 4), output_name);
+
+/// With guard bits a neuron counts as held from where its link shows the bound.
+TEST(LargestSum, LooksAtBoundsAsLinksShowThem) {
+  const spec::ArraySpec array = spec::guarded_array(); // 22 places, of which links show 14
+  for (const auto& dut : every_way(array, topology_of(1, 1, {}))) {
+    dut->put_codes(Window::BIAS, {1000});
+    dut->write(HM_REG_STOP, HM_MASK_STOP_BY_SUM);
+    const std::int32_t one = 1 << 22;
+    for (const auto& [V, counts] : {std::pair(one - 128, false), {one - 129, true}, {-one, true}}) {
+      dut->put_codes(Window::OUTPUT, {V});
       dut->start(0, 1);
       dut->run_until_done();
-      EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO), 0u); // nothing is compared
+      EXPECT_EQ(dut->read(HM_REG_LARGEST_SUM_LO) != 0, counts) << V;
     }
   }
 }

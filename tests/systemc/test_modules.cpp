@@ -257,7 +257,10 @@ TEST(MomentumTable, TakesEntryAfterEntryAndHoldsTheLast) {
   three.begin_run();
   EXPECT_EQ(three.now(), 10);
   one.set_code(0, -5);
-  for (bool restart : {false, true}) one.end_sweep(restart), EXPECT_EQ(one.now(), -5);
+  for (bool restart : {false, true}) {
+    one.end_sweep(restart);
+    EXPECT_EQ(one.now(), -5);
+  }
 }
 
 TEST(Link, ShowsWritesAfterTheUpdateAndLoadsAtOnce) {

@@ -6,6 +6,7 @@
 #include "rtl_model/spec/relaxation.h"
 #include "rtl_model/spec/signals.h"
 #include "sim/engine/neuron_plan.h"
+#include "sim/engine/run_rule.h"
 
 #include <memory>
 
@@ -36,9 +37,10 @@ class ClockStepped {
   virtual void write_weights(std::size_t first, const std::uint32_t* words, std::size_t count) = 0;
   virtual void write_biases(std::size_t first, const std::uint32_t* words, std::size_t count) = 0;
   virtual void write_outputs(std::size_t first, const std::uint32_t* words, std::size_t count) = 0;
+  void write_momentum(std::size_t first, const std::uint32_t* words, std::size_t count);
 
   /// START: cycle 0 is the one that now begins.
-  void start(std::uint32_t threshold, std::uint32_t max_sweeps);
+  void start(std::uint32_t threshold, std::uint32_t max_sweeps, const spec::StopRule& rule = {});
   /// Goes one clock on; does nothing when idle.
   virtual void step() { step(1); }
   /// Goes `clocks` clocks on, or to the end of the run where that comes before. Registers hold what they hold
@@ -58,6 +60,8 @@ class ClockStepped {
   const spec::Topology& topology() const { return topology_; }
 
   virtual std::int32_t state(std::size_t neuron) const = 0; ///< V after the last clock, raw
+  /// Of a momentum array: the number of m in its table.
+  std::int64_t entry() const { return entry_; }
   /// All that waves show of the array's own registers, and of these cells. Valid as long as the array.
   virtual std::vector<Probe> probes(const std::vector<std::size_t>& cells) const = 0;
 
@@ -65,6 +69,12 @@ class ClockStepped {
   /// Does the beats [first, last) of the segment at hand.
   virtual void do_beats(std::uint64_t first, std::uint64_t last) = 0;
   virtual void entered() {} ///< a segment has begun
+  /// Momentum: Y takes the value of V, and neighbours see it.
+  virtual void restart() {}
+  bool has_momentum() const { return plan_.output == spec::Output::momentum; }
+  /// m of the sweep at hand.
+  std::int32_t momentum() const { return rule_.momentum(); }
+  bool by_sum() const { return rule_.by_sum(); }
 
   const spec::Topology topology_;
   const spec::Phases phases_;
@@ -72,7 +82,7 @@ class ClockStepped {
   const NeuronPlan plan_;
   int segment_ = spec::Segment::idle;
   std::uint64_t beat_ = 0, length_ = 0; ///< clocks of the segment that are over, and all of them
-  std::int64_t largest_ = 0; ///< |Delta V| of this sweep so far, as the convergence detector has it
+  Detected detected_;                   ///< of this sweep so far, as the convergence detector has it
   spec::Relaxation result_;
 
  private:
@@ -80,7 +90,9 @@ class ClockStepped {
   void leave_segment();
 
   bool done_ = false;
-  std::uint32_t threshold_ = 0, max_sweeps_ = 1;
+  RunRule rule_;
+  std::int64_t entry_ = 0;
+  std::uint32_t max_sweeps_ = 1;
 };
 
 /// The clock-stepped array that the description asks for; it must have passed spec::validate.

@@ -48,7 +48,7 @@ void ClockedEngine::step() {
   if (b.first_normalised < b.last_normalised)
     beats_.normalise(plain_.row + b.first_normalised, plain_.row + b.last_normalised);
   if (b.first_pulled < b.last_pulled)
-    beats_.pull_to_bound(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
+    beats_.move(plain_.row + b.first_pulled, plain_.row + b.last_pulled);
   beat_ += 1;
   result_.cycles += 1;
 }
@@ -100,14 +100,16 @@ void ClockedEngine::do_phase(std::uint64_t first, std::uint64_t last) {
     beats_.add_beats(bank, p, first, last);
     if (normalised.first < normalised.second)
       beats_.normalise(row + normalised.first, row + normalised.second);
-    if (pulled.first < pulled.second) beats_.pull_to_bound(row + pulled.first, row + pulled.second);
-    if (last == length_) largest_ = std::max(largest_, beats_.publish(bank, p));
+    if (pulled.first < pulled.second) beats_.move(row + pulled.first, row + pulled.second);
+    if (last < length_) continue;
+    beats_.detect(bank, p, by_sum(), detected_);
+    beats_.publish(bank, p, momentum(), detected_);
   }
 }
 
 std::vector<Probe> ClockedEngine::probes(const std::vector<std::size_t>& cells) const {
   const auto per_cell = static_cast<std::size_t>(topology_.neurons_per_cell);
-  const spec::NeuronSignals signals = spec::neuron_signals(plan_.formats);
+  const spec::NeuronSignals signals = spec::neuron_signals(plan_.formats, plan_.output);
   const auto phase = spec::phase_of_neurons(topology_, phases_);
   std::vector<Probe> all;
   for (std::size_t c : cells)
@@ -121,6 +123,8 @@ std::vector<Probe> ClockedEngine::probes(const std::vector<std::size_t>& cells) 
       all.push_back({scopes, signals.drive, &beats_.at.drive[row], nullptr, fires});
       all.push_back({scopes, signals.change, &beats_.at.change[row], nullptr, fires});
       all.push_back({scopes, signals.state, nullptr, &beats_.at.state[row], fires});
+      if (has_momentum())
+        all.push_back({scopes, signals.extrapolated, nullptr, &beats_.at.extrapolated[row], Probe::in_all});
     }
   return all;
 }

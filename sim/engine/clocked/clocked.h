@@ -29,6 +29,8 @@ class ClockedEngine final : public ClockStepped {
   std::int64_t change(std::size_t neuron) const { return beats_.at.change[row_[neuron]]; } ///< Delta V
   std::int32_t state(std::size_t neuron) const override { return beats_.at.state[row_[neuron]]; }
   std::int32_t link(std::size_t neuron) const { return beats_.at.link[row_[neuron]]; }
+  /// Y, of a momentum array.
+  std::int32_t extrapolated(std::size_t neuron) const { return beats_.at.extrapolated[row_[neuron]]; }
 
   /// All registers at once, by row; row(neuron) says where a neuron's are.
   const ClockedRegisters& registers() const { return beats_.at; }
@@ -41,6 +43,7 @@ class ClockedEngine final : public ClockStepped {
   };
   void do_beats(std::uint64_t first, std::uint64_t last) override;
   void entered() override;
+  void restart() override { beats_.restart(); }
   void do_prepare(std::uint64_t first, std::uint64_t last);
   void do_phase(std::uint64_t first, std::uint64_t last);
 

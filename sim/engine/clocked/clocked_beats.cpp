@@ -10,6 +10,8 @@ ClockedBeats::ClockedBeats(const NeuronPlan& plan, const ClockedLayout& layout)
     : plan_(plan), layout_(layout), path_(plan), wide_sum_(plan), sum_limit_(plan.formats.accumulator),
       to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
       to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)),
+      gained_(shift_rounding(spec::momentum_down, plan.formats.state.rounding)),
+      step_(step_rounding(plan.step_down, plan.formats.state)),
       short_(plan.formats.weight.width + plan.formats.link.width <= 32),
       plain_sums_(plan.exact && plan.product_up == 0), narrow_sums_(!plan.exact && plan.sum_up <= 52),
       per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)),
@@ -18,6 +20,7 @@ ClockedBeats::ClockedBeats(const NeuronPlan& plan, const ClockedLayout& layout)
   at.weight.assign(layout.weights, 0);
   at.bias.assign(layout.rows, 0);
   at.state = at.bias;
+  if (plan.output == spec::Output::momentum) at.extrapolated = at.bias;
   at.link.assign(layout.rows + lane_count, 0);
   at.norm.assign(layout.rows, 0);
   at.reciprocal = at.sum = at.drive = at.change = multiplier_ = at.norm;
@@ -27,20 +30,29 @@ ClockedBeats::ClockedBeats(const NeuronPlan& plan, const ClockedLayout& layout)
 void ClockedBeats::load(std::size_t cell, std::size_t p, std::int32_t state) {
   const std::size_t row = layout_.row(cell, p);
   at.state[row] = state;
+  if (!at.extrapolated.empty()) at.extrapolated[row] = state;
   at.link[row] = static_cast<std::int32_t>(rounded<std::int64_t>(state, to_link_));
 }
 
 void ClockedBeats::begin_norms(const ClockedBank& bank) {
   for (std::size_t r = bank.first_row; r < bank.first_row + per_cell_ * bank.width; ++r)
-    at.norm[r] = std::abs(std::int64_t{at.bias[r]}) << plan_.bias_up;
+    at.norm[r] = plan_.hold > 0 ? 0 : std::abs(std::int64_t{at.bias[r]}) << plan_.bias_up;
 }
 
 void ClockedBeats::add_norms(const ClockedBank& bank, std::uint64_t first, std::uint64_t last) {
   if (first >= bank.beats()) return;
   const std::size_t tap = first * lanes_, end = std::min<std::size_t>(last * lanes_, bank.taps);
+  if (plan_.output == spec::Output::projected) return add_own_taps(bank, tap, end);
   for (std::size_t p = 0; p < per_cell_; ++p)
     add_magnitudes(&at.weight[bank.first_weight + (p * bank.taps + tap) * bank.width], bank.width, end - tap,
                    plan_.weight_up, bank.reach[first], &at.norm[bank.first_row + p * bank.width]);
+}
+
+// Of taps [tap, end), those that are the neuron itself.
+void ClockedBeats::add_own_taps(const ClockedBank& bank, std::size_t tap, std::size_t end) {
+  for (std::size_t p = tap; p < std::min(end, per_cell_); ++p)
+    add_magnitudes(&at.weight[bank.first_weight + (p * bank.taps + p) * bank.width], bank.width, 1,
+                   plan_.weight_up, bank.width, &at.norm[bank.first_row + p * bank.width]);
 }
 
 void ClockedBeats::invert(const ClockedBank& bank) {
@@ -127,14 +139,42 @@ void ClockedBeats::normalise(std::size_t first, std::size_t last) {
   for (; first < last; ++first) at.drive[first] = path_.drive(rows(first), at.sum[first]);
 }
 
-void ClockedBeats::pull_to_bound(std::size_t first, std::size_t last) {
-  if (first < last)
+void ClockedBeats::move(std::size_t first, std::size_t last) {
+  if (first >= last) return;
+  const auto& base = at.extrapolated.empty() ? at.state : at.extrapolated;
+  if (plan_.hold > 0)
+    step_from(&at.drive[first], &base[first], &at.state[first], plan_.one_state, step_, last - first,
+         &at.change[first]);
+  else
     pull(&at.drive[first], &at.state[first], plan_.one_state, to_state_, last - first, &at.change[first]);
 }
 
-std::int64_t ClockedBeats::publish(const ClockedBank& bank, std::size_t p) {
+void ClockedBeats::detect(const ClockedBank& bank, std::size_t p, bool by_sum, Detected& detected) const {
   const std::size_t row = bank.first_row + p * bank.width;
-  return add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]);
+  const auto& base = at.extrapolated.empty() ? at.state : at.extrapolated;
+  if (by_sum)
+    detected.largest_sum = std::max(detected.largest_sum, largest_moving(&at.sum[row], &base[row],
+                                                                         plan_.one_state, bank.width));
+  if (!at.extrapolated.empty()) detected.along += along(&at.sum[row], &at.change[row], bank.width);
+}
+
+void ClockedBeats::publish(const ClockedBank& bank, std::size_t p, std::int32_t momentum,
+                           Detected& detected) {
+  const std::size_t row = bank.first_row + p * bank.width;
+  if (at.extrapolated.empty()) {
+    detected.largest_change =
+        std::max(detected.largest_change, add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]));
+    return;
+  }
+  add_changes_ahead(&at.change[row], {plan_.one_state, momentum, step_, gained_, to_link_}, bank.width,
+                    &at.state[row], &at.extrapolated[row], &at.link[row]);
+  for (std::size_t r = row; r < row + bank.width; ++r)
+    detected.largest_change = std::max(detected.largest_change, std::abs(at.change[r]));
+}
+
+void ClockedBeats::restart() {
+  at.extrapolated = at.state;
+  show(at.state.data(), to_link_, layout_.rows, at.link.data());
 }
 
 } // namespace hopmesh::engine

@@ -5,13 +5,15 @@
 #include "sim/engine/clocked/clocked_layout.h"
 #include "sim/engine/generic/drive_path.h"
 #include "sim/engine/generic/wide_sum.h"
+#include "sim/engine/run_rule.h"
 
 namespace hopmesh::engine {
 
 /// Memories and registers by row (ClockedLayout), as they stand after a clock.
 struct ClockedRegisters {
   AlignedVector<std::int32_t> weight;             ///< ClockedLayout::weight
-  AlignedVector<std::int32_t> bias, state, link;  ///< I, V, and V as neighbours see it
+  AlignedVector<std::int32_t> bias, state, link;  ///< I, V, and V, or Y, as neighbours see it
+  AlignedVector<std::int32_t> extrapolated;       ///< Y, of momentum
   AlignedVector<std::int64_t> norm, reciprocal;   ///< N, r
   AlignedVector<std::int64_t> sum, drive, change; ///< s, u, Delta V
 };
@@ -37,17 +39,21 @@ class ClockedBeats {
   void add_beats(const ClockedBank& bank, std::size_t p, std::uint64_t first, std::uint64_t last);
   /// s to u, then u to Delta V, of rows [first, last).
   void normalise(std::size_t first, std::size_t last);
-  void pull_to_bound(std::size_t first, std::size_t last);
+  void move(std::size_t first, std::size_t last);
   /// Is each beat one tap whose product is only added to the sum? Then tap_adder() does it.
   bool plain() const { return plain_sums_ && lanes_ == 1; }
   using TapAdder = void (*)(const std::int32_t* weights, const std::int32_t* inputs, std::size_t rows,
                             std::int64_t* sums);
   TapAdder tap_adder() const;
   const std::int32_t* inputs() const { return in_.data(); }
-  /// V and link of neuron p of all cells take their new values. Returns the largest |Delta V|.
-  std::int64_t publish(const ClockedBank& bank, std::size_t p);
+  /// Neuron p of all cells: what the detector sees of it; then V, Y and link take their new values.
+  void detect(const ClockedBank& bank, std::size_t p, bool by_sum, Detected& detected) const;
+  void publish(const ClockedBank& bank, std::size_t p, std::int32_t momentum, Detected& detected);
+  /// Y takes the value of V.
+  void restart();
 
  private:
+  void add_own_taps(const ClockedBank& bank, std::size_t tap, std::size_t end);
   /// A group of taps: their weights, their inputs, and the strides from one tap to the next.
   struct Taps {
     const std::int32_t* weights;
@@ -65,7 +71,8 @@ class ClockedBeats {
   const DrivePath path_;
   const WideSum wide_sum_;
   const Limit sum_limit_;
-  const ShiftRounding to_state_, to_link_;
+  const ShiftRounding to_state_, to_link_, gained_;
+  const StepRounding step_;
   ShiftRounding to_sum_;
   const bool short_;       ///< a product of codes has at most 32 bits
   const bool plain_sums_;  ///< products add up as they are

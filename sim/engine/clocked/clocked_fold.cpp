@@ -25,6 +25,8 @@ ClockedFold::ClockedFold(const spec::ArraySpec& array, const spec::Topology& top
       path_(plan_), wide_sum_(plan_),
       to_state_(shift_rounding(plan_.formats.drive.fraction_bits(), plan_.formats.state.rounding)),
       to_link_(shift_rounding(plan_.link_down, plan_.formats.link.rounding)),
+      gained_(shift_rounding(spec::momentum_down, plan_.formats.state.rounding)),
+      step_(step_rounding(plan_.step_down, plan_.formats.state)),
       lanes_(static_cast<std::size_t>(array.lanes)), shared_(spec::shares_stage(array)) {
   place_neurons();
   find_sources();
@@ -32,6 +34,7 @@ ClockedFold::ClockedFold(const spec::ArraySpec& array, const spec::Topology& top
   if (array.schedule == spec::Schedule::synchronous) write_bank_ = neurons;
   bias_.assign(neurons, 0);
   state_ = bias_;
+  if (has_momentum()) extrapolated_ = bias_;
   link_.assign(neurons + write_bank_, 0);
   norm_.assign(neurons, 0);
   reciprocal_ = multiplier_ = sum_ = drive_ = norm_;
@@ -93,8 +96,14 @@ void ClockedFold::write_outputs(std::size_t first, const std::uint32_t* words, s
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t at = position_[first + k];
     state_[at] = std::min(std::max(kept_bits(words[k], plan_.formats.state), -one), one);
+    if (has_momentum()) extrapolated_[at] = state_[at];
     link_[bank_ + at] = static_cast<std::int32_t>(rounded<std::int64_t>(state_[at], to_link_));
   }
+}
+
+void ClockedFold::restart() {
+  extrapolated_ = state_;
+  show(state_.data(), to_link_, state_.size(), &link_[bank_]);
 }
 
 // ---- clocks ----
@@ -126,7 +135,8 @@ void ClockedFold::do_prepare(std::uint64_t cycle) {
     for (std::size_t e = 0; e < round->count; ++e) {
       const std::size_t at = position(*round, e);
       element_.neuron[e] = neuron_[at];
-      if (cycle == round->begins) element_.norm[e] = std::abs(std::int64_t{bias_[at]}) << plan_.bias_up;
+      if (cycle == round->begins)
+        element_.norm[e] = plan_.hold > 0 ? 0 : std::abs(std::int64_t{bias_[at]}) << plan_.bias_up;
       add_magnitudes(at, (cycle - round->begins) * lanes_, element_.norm[e]);
     }
   if (adding_ < fold_.prepare.size() && cycle == fold_.prepare[adding_].leaves) {
@@ -148,12 +158,11 @@ void ClockedFold::do_prepare(std::uint64_t cycle) {
 
 // The end of the stage comes first: registers are read before somebody else writes them.
 void ClockedFold::do_phase(std::uint64_t cycle, const spec::Rounds& rounds) {
-  const bool at_once = plan_.binary; // behind a sign, Delta V is written with V
+  const bool at_once = spec::changes_at_once(array_);
   if (!at_once) publish(published_.in_cycle(cycle, rounds));
   const Follower::Part pulled = pulled_.in_cycle(cycle, rounds);
   if (pulled.round) {
-    const std::size_t at = position(*pulled.round, pulled.first);
-    pull(&drive_[at], &state_[at], plan_.one_state, to_state_, pulled.last - pulled.first,
+    move(position(*pulled.round, pulled.first), pulled.last - pulled.first,
          &stage_.change[stage_of(pulled.first)]);
   }
   if (at_once) publish(published_.in_cycle(cycle, rounds));
@@ -182,7 +191,9 @@ void ClockedFold::add_taps(std::size_t at, std::size_t first_tap, std::int64_t& 
 
 void ClockedFold::add_magnitudes(std::size_t at, std::size_t first_tap, std::int64_t& norm) const {
   const std::size_t first = first_tap_[at] + first_tap, last = std::min(first + lanes_, first_tap_[at + 1]);
-  for (std::size_t t = first; t < last; ++t) norm += std::abs(std::int64_t{weight_[t]}) << plan_.weight_up;
+  const bool own = plan_.output == spec::Output::projected;
+  for (std::size_t t = first; t < last; ++t)
+    if (!own || source_[t] == at) norm += std::abs(std::int64_t{weight_[t]}) << plan_.weight_up;
 }
 
 void ClockedFold::leave(const spec::Round& round) {
@@ -198,15 +209,38 @@ void ClockedFold::normalise(std::size_t at, std::size_t stage) {
   stage_.neuron[stage] = neuron_[at];
 }
 
+void ClockedFold::move(std::size_t at, std::size_t count, std::int64_t* changes) const {
+  const auto& base = has_momentum() ? extrapolated_ : state_;
+  if (plan_.hold > 0)
+    step_from(&drive_[at], &base[at], &state_[at], plan_.one_state, step_, count, changes);
+  else
+    pull(&drive_[at], &state_[at], plan_.one_state, to_state_, count, changes);
+}
+
+void ClockedFold::detect(std::size_t at, std::size_t count, const std::int64_t* changes) {
+  const auto& base = has_momentum() ? extrapolated_ : state_;
+  if (by_sum())
+    detected_.largest_sum = std::max(detected_.largest_sum,
+                                     largest_moving(&sum_[at], &base[at], plan_.one_state, count));
+  if (has_momentum()) detected_.along += along(&sum_[at], changes, count);
+  for (std::size_t k = 0; k < count; ++k)
+    detected_.largest_change = std::max(detected_.largest_change, std::abs(changes[k]));
+}
+
 void ClockedFold::publish(const Follower::Part& part) {
   if (!part.round) return;
-  const std::size_t at = position(*part.round, part.first);
-  largest_ = std::max(largest_, add_changes(&stage_.change[stage_of(part.first)], to_link_,
-                                            part.last - part.first, &state_[at], &link_[write_bank_ + at]));
+  const std::size_t at = position(*part.round, part.first), count = part.last - part.first;
+  const std::int64_t* changes = &stage_.change[stage_of(part.first)];
+  detect(at, count, changes);
+  if (has_momentum())
+    add_changes_ahead(changes, {plan_.one_state, momentum(), step_, gained_, to_link_}, count, &state_[at],
+                      &extrapolated_[at], &link_[write_bank_ + at]);
+  else
+    add_changes(changes, to_link_, count, &state_[at], &link_[write_bank_ + at]);
 }
 
 std::vector<Probe> ClockedFold::probes(const std::vector<std::size_t>& cells) const {
-  const spec::NeuronSignals signals = spec::neuron_signals(plan_.formats);
+  const spec::NeuronSignals signals = spec::neuron_signals(plan_.formats, plan_.output);
   std::vector<Probe> all;
   const auto add = [&all](const std::vector<std::string>& scopes, const spec::Signal& signal,
                           const std::int64_t& code) {
@@ -238,6 +272,12 @@ std::vector<Probe> ClockedFold::probes(const std::vector<std::size_t>& cells) co
                      nullptr,
                      &state_[position_[neuron]],
                      static_cast<int>(phase[neuron])});
+      if (has_momentum())
+        all.push_back({{spec::cell_scope(c), spec::neuron_scope(p)},
+                       signals.extrapolated,
+                       nullptr,
+                       &extrapolated_[position_[neuron]],
+                       Probe::in_all});
     }
   return all;
 }

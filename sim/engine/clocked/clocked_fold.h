@@ -44,6 +44,8 @@ class ClockedFold final : public ClockStepped {
   // Memories of a neuron, and registers of an element or of a stage (0, where it is shared), raw codes.
   std::int32_t state(std::size_t neuron) const override { return state_[position_[neuron]]; }
   std::int32_t link(std::size_t neuron) const { return link_[bank_ + position_[neuron]]; }
+  /// Y, of a momentum array.
+  std::int32_t extrapolated(std::size_t neuron) const { return extrapolated_[position_[neuron]]; }
   std::int64_t reciprocal(std::size_t neuron) const { return reciprocal_[position_[neuron]]; }
   std::int64_t sum(std::size_t element) const { return element_.sum[element]; }
   std::int64_t norm(std::size_t element) const { return element_.norm[element]; }
@@ -58,6 +60,7 @@ class ClockedFold final : public ClockStepped {
   void find_sources();
   void do_beats(std::uint64_t first, std::uint64_t last) override;
   void entered() override;
+  void restart() override;
   void do_prepare(std::uint64_t cycle);
   void do_phase(std::uint64_t cycle, const spec::Rounds& rounds);
   /// The round that accumulates in this cycle, or none.
@@ -66,6 +69,8 @@ class ClockedFold final : public ClockStepped {
   void add_magnitudes(std::size_t position, std::size_t first_tap, std::int64_t& norm) const;
   void leave(const spec::Round& round);
   void normalise(std::size_t position, std::size_t stage);
+  void move(std::size_t position, std::size_t count, std::int64_t* changes) const;
+  void detect(std::size_t position, std::size_t count, const std::int64_t* changes);
   void publish(const Follower::Part& part);
   /// Of the neuron of an element: its number in the order of the sweep.
   std::size_t position(const spec::Round& round, std::size_t element) const {
@@ -77,7 +82,8 @@ class ClockedFold final : public ClockStepped {
   const spec::Fold fold_;
   const DrivePath path_;
   const WideSum wide_sum_;
-  const ShiftRounding to_state_, to_link_;
+  const ShiftRounding to_state_, to_link_, gained_;
+  const StepRounding step_;
   const std::size_t lanes_;
   const bool shared_;
 
@@ -87,7 +93,7 @@ class ClockedFold final : public ClockStepped {
   std::vector<std::size_t> first_tap_;           ///< of each position in weight_ and source_, and behind all
   std::vector<std::int32_t> weight_;
   std::vector<std::uint32_t> source_; ///< the position that a tap reads
-  AlignedVector<std::int32_t> bias_, state_;
+  AlignedVector<std::int32_t> bias_, state_, extrapolated_; ///< extrapolated_: of momentum
   AlignedVector<std::int32_t> link_; ///< two banks in synchronous arrays
   std::size_t bank_ = 0, write_bank_ = 0;
   AlignedVector<std::int64_t> norm_, reciprocal_, multiplier_;

@@ -75,6 +75,56 @@ HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const
   return largest;
 }
 
+HM_WIDEST void step_from(const std::int64_t* __restrict drives, const std::int32_t* base,
+                    const std::int32_t* states, std::int64_t one, const StepRounding& rounding,
+                    std::size_t rows, std::int64_t* __restrict changes) {
+  const ShiftRounding down = rounding.down;
+  const std::int64_t up = std::int64_t{1} << rounding.up;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::int64_t next = base[r] + rounded(drives[r] * up, down);
+    changes[r] = (next < -one ? -one : next > one ? one : next) - states[r];
+  }
+}
+
+HM_WIDEST void add_changes_ahead(const std::int64_t* __restrict changes, const Momentum& stage,
+                                 std::size_t rows, std::int32_t* __restrict states,
+                                 std::int32_t* __restrict ahead, std::int32_t* __restrict links) {
+  const Momentum by = stage;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::int64_t V = states[r] + changes[r], far = V + rounded(by.m * changes[r], by.gained);
+    const std::int64_t Y = far < -by.one ? -by.one : far > by.one ? by.one : far;
+    states[r] = static_cast<std::int32_t>(V);
+    ahead[r] = static_cast<std::int32_t>(Y);
+    links[r] = static_cast<std::int32_t>(rounded(Y, by.to_link));
+  }
+}
+
+HM_WIDEST std::int64_t along(const std::int64_t* __restrict sums, const std::int64_t* __restrict changes,
+                             std::size_t rows) {
+  std::int64_t all = 0;
+  for (std::size_t r = 0; r < rows; ++r) all += sums[r] > 0 ? changes[r] : sums[r] < 0 ? -changes[r] : 0;
+  return all;
+}
+
+HM_WIDEST std::int64_t largest_moving(const std::int64_t* __restrict sums,
+                                      const std::int32_t* __restrict base, std::int64_t one,
+                                      std::size_t rows) {
+  std::int64_t largest = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const bool held = sums[r] >= 0 ? base[r] == one : base[r] == -one;
+    const std::int64_t size = held ? 0 : sums[r] < 0 ? -sums[r] : sums[r];
+    largest = size > largest ? size : largest;
+  }
+  return largest;
+}
+
+HM_WIDEST void show(const std::int32_t* __restrict states, const ShiftRounding& rounding, std::size_t rows,
+                    std::int32_t* __restrict links) {
+  const ShiftRounding to_link = rounding;
+  for (std::size_t r = 0; r < rows; ++r)
+    links[r] = static_cast<std::int32_t>(rounded(std::int64_t{states[r]}, to_link));
+}
+
 HM_WIDEST void copy_runs(const std::int32_t* __restrict links, const LinkRun* __restrict runs,
                          std::size_t count, std::size_t per_cell, std::size_t stride,
                          std::int32_t* __restrict inputs) {

@@ -14,12 +14,12 @@ class DrivePath {
   /// What a row keeps of its N; zeros where N is zero, and in arrays without reciprocals.
   struct Inverse {
     std::int64_t reciprocal = 0; ///< the register r
-    std::int64_t multiplier = 0; ///< of s: r, or r moved up to the one point that all rows share
+    std::int64_t multiplier = 0; ///< of s: gain r, or that moved up to the one point that all rows share
     int places = 0;              ///< by which the product moves down to the drive's last place
   };
   Inverse invert(std::uint64_t norm) const;
 
-  /// N, and what Inverse holds, of rows side by side.
+  /// What divides s, and what Inverse holds, of rows side by side.
   struct Rows {
     const std::int64_t *norm, *multiplier;
     const int* places;
@@ -28,10 +28,14 @@ class DrivePath {
   void drives(const Rows& rows, const std::int64_t* sum, std::int64_t* u) const;
   /// The limited drive of one row.
   std::int64_t drive(const Rows& row, std::int64_t sum) const;
-  /// What the limiter holds within [-1, 1]: a code of the drive.
+  /// What the limiter holds within [-1, 1]: a code of the drive. Where u is limited before it is rounded,
+  /// that is u itself.
   std::int64_t unlimited_drive(const Rows& row, std::int64_t sum) const;
 
  private:
+  void held_drives(const Rows& rows, std::int64_t* u) const;
+  std::int64_t held_drive(const Rows& row, std::int64_t sum) const;
+  bool holds_narrowly() const;
   bool divides_narrowly() const;
   bool multiplies_narrowly() const;
   bool multiplies_row_by_row() const;

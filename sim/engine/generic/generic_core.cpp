@@ -22,7 +22,9 @@ class GenericCore : public SweepCore {
       : plan_(plan), layout_(layout), per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), path_(plan),
         wide_sum_(plan), sum_limit_(plan.formats.accumulator),
         to_state_(shift_rounding(plan.formats.drive.fraction_bits(), plan.formats.state.rounding)),
-        to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)) {
+        to_link_(shift_rounding(plan.link_down, plan.formats.link.rounding)),
+        gained_(shift_rounding(spec::momentum_down, plan.formats.state.rounding)),
+        step_(step_rounding(plan.step_down, plan.formats.state)) {
     const std::size_t neurons = layout.slots() * per_cell_;
     first_weight_.assign(1, 0);
     for (std::uint32_t n : layout.neighbours)
@@ -30,7 +32,9 @@ class GenericCore : public SweepCore {
     weight_.assign(first_weight_.back(), 0);
     bias_.assign(neurons, 0);
     state_ = bias_;
-    link_ = next_link_ = bias_;
+    link_[0] = bias_;
+    if (synchronous()) link_[1] = bias_;
+    if (plan.output == spec::Output::momentum) ahead_ = bias_;
     norm_.assign(neurons, 0);
     reciprocal_ = norm_;
     places_.assign(neurons, 0);
@@ -52,8 +56,10 @@ class GenericCore : public SweepCore {
   void put_bias(std::size_t slot, std::size_t p, std::int32_t code) override { bias_[place(slot, p)] = code; }
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
-    state_[place(slot, p)] = code;
-    link_[p * layout_.slots() + slot] = static_cast<std::int32_t>(rounded<std::int64_t>(code, to_link_));
+    const std::size_t at = place(slot, p);
+    state_[at] = code;
+    if (!ahead_.empty()) ahead_[at] = code;
+    link(0)[p * layout_.slots() + slot] = static_cast<std::int32_t>(rounded<std::int64_t>(code, to_link_));
   }
   std::int32_t state(std::size_t slot, std::size_t p) const override { return state_[place(slot, p)]; }
 
@@ -61,27 +67,35 @@ class GenericCore : public SweepCore {
     for (std::size_t b = first; b < last; ++b)
       for (std::size_t p = 0; p < per_cell_; ++p) prepare_rows(b, p);
   }
-  void fire(std::size_t first, std::size_t last, SweepRecord& record) override {
+  void begin_run(bool by_sum) override {
+    by_sum_ = by_sum;
+    restart();
+  }
+  void fire(std::size_t first, std::size_t last, const SweepOrder& order, SweepRecord& record) override {
     std::vector<std::int32_t> in(plan_.most_taps * L);
     for (std::size_t b = first; b < last; ++b) {
-      gather(b, in.data());
-      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, in.data(), record);
+      gather(b, link(order.ahead), in.data());
+      for (std::size_t p = 0; p < per_cell_; ++p) fire_rows(b, p, order, in.data(), record);
     }
   }
-  void end_sweep() override {
-    if (synchronous()) link_.swap(next_link_);
-  }
-  void keep_outputs() override { kept_ = {state_, link_}; }
+  void end_sweeps(std::uint32_t count) override { turn_ += count; }
+  void restart() override;
+  void keep_outputs() override { kept_ = {state_, ahead_, link_[turn(0)]}; }
   void restore_outputs() override {
     state_ = kept_[0];
-    link_ = kept_[1];
+    ahead_ = kept_[1];
+    link_[turn(0)] = kept_[2];
   }
   std::size_t bytes_per_sweep() const override {
-    return 4 * weight_.size() + 4 * layout_.source.size() + layout_.slots() * per_cell_ * (4 + 8 + 8 + 4);
+    return 4 * (weight_.size() + layout_.source.size() + 2 * ahead_.size()) +
+           layout_.slots() * per_cell_ * (4 + 8 + 8 + 4);
   }
   const char* name() const override { return "generic"; }
 
  private:
+  /// Synchronous arrays have links of two sweeps, and take turns.
+  std::size_t turn(std::uint32_t ahead) const { return synchronous() ? (turn_ + ahead) % 2 : 0; }
+  std::int32_t* link(std::uint32_t ahead) { return link_[turn(ahead)].data(); }
   bool synchronous() const { return plan_.schedule == spec::Schedule::synchronous; }
   std::size_t taps_of(std::size_t neighbours) const { return per_cell_ * (1 + neighbours); }
   std::size_t place(std::size_t slot, std::size_t p) const {
@@ -94,8 +108,11 @@ class GenericCore : public SweepCore {
 
   void prepare_rows(std::size_t b, std::size_t p);
   void invert(std::size_t at, std::uint64_t norm);
-  void gather(std::size_t b, std::int32_t* in) const;
-  void fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record);
+  void gather(std::size_t b, const std::int32_t* links, std::int32_t* in) const;
+  void fire_rows(std::size_t b, std::size_t p, const SweepOrder& order, std::int32_t* in,
+                 SweepRecord& record);
+  void move(std::size_t first, const std::int64_t* sum, const std::int64_t* u, std::int32_t m,
+            std::int32_t* link, SweepRecord& record);
   void sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps, const std::int32_t* bias,
                    std::int64_t* sum) const;
   void begin_with_loss(const std::int32_t* bias, std::int64_t* sum) const;
@@ -108,16 +125,20 @@ class GenericCore : public SweepCore {
   const DrivePath path_;
   const WideSum wide_sum_;
   const Limit sum_limit_;
-  const ShiftRounding to_state_, to_link_;
+  const ShiftRounding to_state_, to_link_, gained_;
+  const StepRounding step_;
   ShiftRounding to_sum_, to_bias_;
   bool narrow_sums_ = false, narrow_bias_ = false; ///< a rounding accumulator stays within 63 bits
   std::vector<std::size_t> first_weight_;          ///< of a block
   AlignedVector<std::int32_t> weight_;             ///< [block][p][tap][lane]
   AlignedVector<std::int32_t> bias_, state_;       ///< [block][p][lane]
-  AlignedVector<std::int32_t> link_, next_link_;   ///< [p][slot]
+  AlignedVector<std::int32_t> ahead_;              ///< Y, of momentum: [block][p][lane]
+  std::array<AlignedVector<std::int32_t>, 2> link_; ///< [p][slot]; the second of synchronous arrays
+  std::uint32_t turn_ = 0;                         ///< sweeps up to now
+  bool by_sum_ = false;
   AlignedVector<std::int64_t> norm_, reciprocal_;  ///< [block][p][lane]
   std::vector<int> places_;                        ///< Inverse::places of each row
-  std::array<AlignedVector<std::int32_t>, 2> kept_;
+  std::array<AlignedVector<std::int32_t>, 3> kept_;
 };
 
 void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
@@ -125,11 +146,12 @@ void GenericCore::prepare_rows(std::size_t b, std::size_t p) {
   for (std::size_t l = 0; l < L; ++l) {
     const std::size_t at = (b * per_cell_ + p) * L + l;
     const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L + l];
+    const bool own = plan_.output == spec::Output::projected;
     std::uint64_t sum = 0;
-    for (std::size_t t = 0; t < taps; ++t)
+    for (std::size_t t = own ? p : 0; t < (own ? p + 1 : taps); ++t)
       sum += static_cast<std::uint64_t>(std::abs(std::int64_t{w[t * L]}));
-    invert(at, (sum << plan_.weight_up) +
-                   (static_cast<std::uint64_t>(std::abs(std::int64_t{bias_[at]})) << plan_.bias_up));
+    const std::int64_t bias = plan_.hold > 0 ? 0 : std::abs(std::int64_t{bias_[at]});
+    invert(at, (sum << plan_.weight_up) + (static_cast<std::uint64_t>(bias) << plan_.bias_up));
   }
 }
 
@@ -141,10 +163,10 @@ void GenericCore::invert(std::size_t at, std::uint64_t norm) {
 }
 
 // The inputs of the block's rows, tap by tap.
-void GenericCore::gather(std::size_t b, std::int32_t* in) const {
+void GenericCore::gather(std::size_t b, const std::int32_t* links, std::int32_t* in) const {
   const std::uint32_t* source = layout_.source.data() + layout_.first_source[b];
   for (std::size_t q = 0; q < per_cell_; ++q) {
-    const std::int32_t* plane = &link_[q * layout_.slots()];
+    const std::int32_t* plane = links + q * layout_.slots();
     std::copy_n(plane + b * L, L, in + q * L);
     for (std::size_t k = 0; k < layout_.neighbours[b]; ++k)
       gather_lanes(plane, source + k * L, in + ((k + 1) * per_cell_ + q) * L);
@@ -152,7 +174,8 @@ void GenericCore::gather(std::size_t b, std::int32_t* in) const {
 }
 
 // Coloured and sequential: the cell's next neuron reads what this one has become.
-void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, SweepRecord& record) {
+void GenericCore::fire_rows(std::size_t b, std::size_t p, const SweepOrder& order, std::int32_t* in,
+                            SweepRecord& record) {
   alignas(64) std::int64_t sum[L], u[L];
   const std::size_t taps = taps_of(layout_.neighbours[b]), first = (b * per_cell_ + p) * L;
   const std::int32_t* w = &weight_[first_weight_[b] + p * taps * L];
@@ -166,10 +189,38 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, std::int32_t* in, Swee
   widen_swing(sum, sums);
   widen_swing(u, driven);
   x = {sums.least, sums.largest, driven.least, driven.largest};
-  std::int32_t* link = &(synchronous() ? next_link_ : link_)[p * layout_.slots() + b * L];
-  record.largest =
-      std::max(record.largest, output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link));
-  if (!synchronous()) std::copy_n(link, L, in + p * L);
+  std::int32_t* shown = link(order.ahead + 1) + p * layout_.slots() + b * L;
+  if (by_sum_) {
+    const std::int32_t* base = ahead_.empty() ? &state_[first] : &ahead_[first];
+    record.largest_moving = std::max(record.largest_moving, largest_moving_sum(sum, base, plan_.one_state));
+  }
+  move(first, sum, u, order.momentum, shown, record);
+  if (!synchronous()) std::copy_n(shown, L, in + p * L);
+}
+
+void GenericCore::move(std::size_t first, const std::int64_t* sum, const std::int64_t* u, std::int32_t m,
+                       std::int32_t* link, SweepRecord& record) {
+  std::int64_t largest = 0;
+  if (plan_.output == spec::Output::projected) {
+    largest = step_lanes(u, plan_.one_state, step_, to_link_, &state_[first], link);
+  } else if (plan_.output == spec::Output::momentum) {
+    const Moved moved =
+        momentum_lanes(u, sum, {plan_.one_state, m, step_, gained_, to_link_}, &state_[first], &ahead_[first], link);
+    record.along += moved.along;
+    largest = moved.largest;
+  } else {
+    largest = output_lanes(u, plan_.one_state, to_state_, to_link_, &state_[first], link);
+  }
+  record.largest = std::max(record.largest, largest);
+}
+
+void GenericCore::restart() {
+  if (ahead_.empty()) return;
+  ahead_ = state_;
+  for (std::size_t slot = 0; slot < layout_.slots(); ++slot)
+    for (std::size_t p = 0; p < per_cell_; ++p)
+      link(0)[p * layout_.slots() + slot] =
+          static_cast<std::int32_t>(rounded<std::int64_t>(state_[place(slot, p)], to_link_));
 }
 
 void GenericCore::sum_exactly(const std::int32_t* w, const std::int32_t* in, std::size_t taps,

@@ -84,6 +84,10 @@ template <bool wrap, bool zero>
 
 } // namespace
 
+StepRounding step_rounding(int places, const spec::NumberFormat& state) {
+  return {std::max(-places, 0), shift_rounding(std::max(places, 0), state.rounding)};
+}
+
 HM_WIDEST void gather_lanes(const std::int32_t* plane, const std::uint32_t* slots,
                             std::int32_t* __restrict links) {
   for (std::size_t l = 0; l < lane_count; ++l) links[l] = plane[slots[l]];
@@ -180,6 +184,72 @@ HM_WIDEST void sign_lanes(std::int64_t* __restrict x, std::int64_t one) {
 
 HM_WIDEST void clamp_lanes(std::int64_t* __restrict x, std::int64_t bound) {
   for (std::size_t l = 0; l < lane_count; ++l) x[l] = x[l] < -bound ? -bound : x[l] > bound ? bound : x[l];
+}
+
+HM_WIDEST void hold_lanes(std::int64_t* __restrict x, const std::int64_t* __restrict norm,
+                          std::int64_t factor, std::int64_t* __restrict beyond) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t most = norm[l] * factor;
+    beyond[l] = static_cast<std::int64_t>(x[l] > most) - static_cast<std::int64_t>(x[l] < -most);
+    x[l] = x[l] < -most ? -most : x[l] > most ? most : x[l];
+  }
+}
+
+HM_WIDEST void limit_held_lanes(std::int64_t* __restrict x, const std::int64_t* __restrict beyond,
+                                std::int64_t bound) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t within = x[l] < -bound ? -bound : x[l] > bound ? bound : x[l];
+    x[l] = beyond[l] == 0 ? within : beyond[l] * bound;
+  }
+}
+
+HM_WIDEST std::int64_t largest_moving_sum(const std::int64_t* sum, const std::int32_t* base,
+                                          std::int64_t one) {
+  std::int64_t largest = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t up = base[l] == one || sum[l] < 0 ? 0 : sum[l];
+    const std::int64_t down = base[l] == -one || sum[l] > 0 ? 0 : -sum[l];
+    largest = up > largest ? up : largest;
+    largest = down > largest ? down : largest;
+  }
+  return largest;
+}
+
+HM_WIDEST std::int64_t step_lanes(const std::int64_t* __restrict u, std::int64_t one,
+                                  const StepRounding& to_state, const ShiftRounding& to_link,
+                                  std::int32_t* __restrict state, std::int32_t* __restrict link) {
+  const ShiftRounding down = to_state.down, link_rounding = to_link;
+  const std::int64_t up = std::int64_t{1} << to_state.up;
+  std::int64_t largest = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t V = state[l], next = V + rounded(u[l] * up, down);
+    const std::int64_t now = next < -one ? -one : next > one ? one : next;
+    const std::int64_t size = now > V ? now - V : V - now;
+    largest = size > largest ? size : largest;
+    state[l] = static_cast<std::int32_t>(now);
+    link[l] = static_cast<std::int32_t>(rounded(now, link_rounding));
+  }
+  return largest;
+}
+
+HM_WIDEST Moved momentum_lanes(const std::int64_t* __restrict u, const std::int64_t* __restrict sum,
+                               const Momentum& stage, std::int32_t* __restrict state,
+                               std::int32_t* __restrict ahead, std::int32_t* __restrict link) {
+  const Momentum by = stage;
+  const std::int64_t one = by.one, up = std::int64_t{1} << by.to_state.up;
+  Moved moved{0, 0};
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int64_t next = ahead[l] + rounded(u[l] * up, by.to_state.down);
+    const std::int64_t V = next < -one ? -one : next > one ? one : next, change = V - state[l];
+    const std::int64_t far = V + rounded(by.m * change, by.gained);
+    const std::int64_t Y = far < -one ? -one : far > one ? one : far, size = change < 0 ? -change : change;
+    moved.largest = size > moved.largest ? size : moved.largest;
+    moved.along += sum[l] > 0 ? change : sum[l] < 0 ? -change : 0;
+    state[l] = static_cast<std::int32_t>(V);
+    ahead[l] = static_cast<std::int32_t>(Y);
+    link[l] = static_cast<std::int32_t>(rounded(Y, by.to_link));
+  }
+  return moved;
 }
 
 HM_WIDEST void widen_swing(const std::int64_t* x, Swing& swing) {

@@ -42,9 +42,37 @@ void limit_lanes(std::int64_t* x, const Limit& limit);
 /// x <- one, 0 or -one, by its sign.
 void sign_lanes(std::int64_t* x, std::int64_t one);
 void clamp_lanes(std::int64_t* x, std::int64_t bound);
+/// x held within ±norm * factor; `beyond`: the sign of what was cut off, or 0.
+void hold_lanes(std::int64_t* x, const std::int64_t* norm, std::int64_t factor, std::int64_t* beyond);
+/// x clamped, and at its bound where `beyond` is not 0.
+void limit_held_lanes(std::int64_t* x, const std::int64_t* beyond, std::int64_t bound);
 void widen_swing(const std::int64_t* x, Swing& swing);
+/// The largest |s| of rows that may still move: `base`, from where they move, is not held at a bound by s.
+std::int64_t largest_moving_sum(const std::int64_t* sum, const std::int32_t* base, std::int64_t one);
 /// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.
 std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const ShiftRounding& to_state,
                           const ShiftRounding& to_link, std::int32_t* state, std::int32_t* link);
+
+/// u to a step of the state: moved up, then rounded.
+struct StepRounding {
+  int up = 0;
+  ShiftRounding down;
+};
+/// `places`: from the drive down to the state.
+StepRounding step_rounding(int places, const spec::NumberFormat& state);
+/// Projected: V <- V + step, held within ±one; links from it; returns the largest |Delta V|.
+std::int64_t step_lanes(const std::int64_t* u, std::int64_t one, const StepRounding& to_state,
+                        const ShiftRounding& to_link, std::int32_t* state, std::int32_t* link);
+/// Momentum: V <- Y + step, then Y <- V + m Delta V, both held within ±one; links from Y.
+struct Moved {
+  std::int64_t largest, along; ///< |Delta V|; the sum of sign(s) Delta V
+};
+struct Momentum {
+  std::int64_t one, m;
+  StepRounding to_state;
+  ShiftRounding gained, to_link; ///< m Delta V to the state; Y to the link
+};
+Moved momentum_lanes(const std::int64_t* u, const std::int64_t* sum, const Momentum& stage,
+                     std::int32_t* state, std::int32_t* ahead, std::int32_t* link);
 
 } // namespace hopmesh::engine

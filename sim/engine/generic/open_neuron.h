@@ -21,12 +21,16 @@ class OpenNeuron {
  private:
   std::vector<std::int64_t> sums(const spec::FiringInputs& inputs) const;
   std::uint64_t norm(const spec::FiringInputs& inputs) const;
+  // From u to what neighbours see: a pull to the bound that u points to, or a step.
+  void pull(const spec::FiringInputs& inputs, spec::FiringSteps& steps) const;
+  void step(const spec::FiringInputs& inputs, spec::FiringSteps& steps) const;
 
   const NeuronPlan plan_;
   const bool sums_norm_;
   const DrivePath path_;
   const WideSum sum_;
-  const ShiftRounding to_state_, to_link_;
+  const ShiftRounding to_state_, to_link_, gained_;
+  const StepRounding step_;
 };
 
 } // namespace hopmesh::engine

@@ -26,6 +26,14 @@ struct KernelDivision {
   int ratio_up = 0;
 };
 
+/// Of slim kernels, which know only rounding down and to the nearest: u = floor((s scale + to_dividend) inverse
+/// + to_quotient), and only the last where they multiply.
+struct KernelQuotient {
+  double scale = 1, to_dividend = 0, to_quotient = 0;
+};
+inline constexpr int slim_places = 15; ///< behind the point of m; Delta V is multiplied in pieces of so many bits
+inline constexpr std::size_t slim_blocks = 4096; ///< after so many a slim kernel's sums might leave 32 bits
+
 struct KernelArgs {
   const std::uint32_t* neighbours;   ///< of a block; even where a cell has one neuron or three
   const std::size_t* first_weight;   ///< of a block, in `weight`
@@ -42,15 +50,25 @@ struct KernelArgs {
   const std::int32_t* bias;       ///< [block][p][lane], and so all below
   const std::int64_t* multiplier; ///< reciprocal, all with one point; or 1 / N as a double's bits
   std::int32_t* state;
+  std::int32_t* ahead;          ///< Y, of momentum
+  const std::int64_t* most_sum; ///< projected and momentum: s is held within it (`slim`: not looked at)
   /// Links by slot: x and y in one word; z in both halves of another, or x where it is alone.
   const std::uint32_t *xy, *zz;
   std::uint32_t *next_xy,
       *next_zz; ///< where new links go: xy and zz themselves, except in synchronous arrays
   bool synchronous;
   int bias_up, state_fraction;
-  std::int64_t one_drive;
+  std::int64_t one_drive, one_state;
   ShiftRounding drive, state_rounding, link;
   KernelDivision division;
+  // Projected and momentum: u to a step of the state, moved up and then rounded; m times Delta V; the limit
+  // of u; what moves a sign beyond that; what s is multiplied by before a division; and m.
+  int step_up, beyond_up;
+  ShiftRounding step, gained;
+  std::int64_t most_drive;
+  double gain;
+  std::int32_t momentum;
+  KernelQuotient slim;
 };
 
 using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,
@@ -58,12 +76,31 @@ using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size
 /// Sum of |weight| of every row of a block: [p][lane].
 using RowKernel = void (*)(const KernelArgs& args, std::size_t block, std::uint32_t* sums);
 
-enum class Normalise : std::uint8_t { multiply, scale, divide, sign };
+/// What a kernel does with s: modified, with each normaliser; binary; projected; momentum.
+enum class Normalise : std::uint8_t {
+  multiply,
+  scale,
+  divide,
+  sign,
+  step_multiply,
+  step_divide,
+  ahead_multiply,
+  ahead_divide
+};
+constexpr bool is_step(Normalise how) {
+  return how == Normalise::step_multiply || how == Normalise::step_divide;
+}
+constexpr bool is_ahead(Normalise how) {
+  return how == Normalise::ahead_multiply || how == Normalise::ahead_divide;
+}
+constexpr bool divides(Normalise how) {
+  return how == Normalise::divide || how == Normalise::step_divide || how == Normalise::ahead_divide;
+}
 
-/// All kernels of one instruction set: [neurons a cell - 1][Normalise][plain rounding][wide sums].
+/// All kernels of one instruction set: [neurons a cell - 1][Normalise][by sum][plain rounding][wide sums].
 struct KernelSet {
   const char* name;
-  FireKernel fire[3][4][2][2];
+  FireKernel fire[3][8][2][2][2];
   RowKernel rows[3];
 };
 

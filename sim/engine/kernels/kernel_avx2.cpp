@@ -1,5 +1,5 @@
 // Kernels for processors with AVX2. What 64-bit lanes lack there is built from what they have.
-#include "sim/engine/kernels/kernel_body.h"
+#include "sim/engine/kernels/kernel_ahead.h"
 
 #include <immintrin.h>
 
@@ -101,6 +101,15 @@ struct Avx2 {
   static Words add_words(const Words& a, const Words& b) {
     return both_words([&](int h) { return _mm256_add_epi32(a.half[h], b.half[h]); });
   }
+  static Words sub_words(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_sub_epi32(a.half[h], b.half[h]); });
+  }
+  static Words min_words(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_min_epi32(a.half[h], b.half[h]); });
+  }
+  static Words max_words(const Words& a, const Words& b) {
+    return both_words([&](int h) { return _mm256_max_epi32(a.half[h], b.half[h]); });
+  }
   static Words words_and(const Words& a, const Words& b) {
     return both_words([&](int h) { return _mm256_and_si256(a.half[h], b.half[h]); });
   }
@@ -109,6 +118,9 @@ struct Avx2 {
   }
   static Words shift_words_down(const Words& a, Count n) {
     return both_words([&](int h) { return _mm256_sra_epi32(a.half[h], n); });
+  }
+  static Words shift_words_up(const Words& a, Count n) {
+    return both_words([&](int h) { return _mm256_sll_epi32(a.half[h], n); });
   }
   static Words word_sizes(const Words& a) {
     return both_words([&](int h) { return _mm256_abs_epi32(a.half[h]); });
@@ -144,6 +156,26 @@ struct Avx2 {
       return _mm256_sub_epi64(_mm256_castpd_si256(whole), magic_bits());
     });
   }
+  static __m256d doubles_of(__m256i words, int which) {
+    return _mm256_cvtepi32_pd(which ? _mm256_extracti128_si256(words, 1) : _mm256_castsi256_si128(words));
+  }
+  static Doubles low_doubles(const Words& a) { return {{doubles_of(a.half[0], 0), doubles_of(a.half[0], 1)}}; }
+  static Doubles high_doubles(const Words& a) {
+    return {{doubles_of(a.half[1], 0), doubles_of(a.half[1], 1)}};
+  }
+  static Doubles least_of(const Doubles& a, const Doubles& b) {
+    return both_doubles([&](int h) { return _mm256_min_pd(a.half[h], b.half[h]); });
+  }
+  static Doubles most_of(const Doubles& a, const Doubles& b) {
+    return both_doubles([&](int h) { return _mm256_max_pd(a.half[h], b.half[h]); });
+  }
+  static __m256i floor_half(const Doubles& a) {
+    return _mm256_set_m128i(_mm256_cvttpd_epi32(_mm256_floor_pd(a.half[1])),
+                            _mm256_cvttpd_epi32(_mm256_floor_pd(a.half[0])));
+  }
+  static Words floor_words(const Doubles& low, const Doubles& high) {
+    return {{floor_half(low), floor_half(high)}};
+  }
   static Doubles plus(const Doubles& a, const Doubles& b) {
     return both_doubles([&](int h) { return _mm256_add_pd(a.half[h], b.half[h]); });
   }
@@ -158,6 +190,10 @@ struct Avx2 {
     return both_words([&](int h) {
       return _mm256_add_epi32(sum.half[h], _mm256_madd_epi16(load_half(b + 8 * h), a.half[h]));
     });
+  }
+  static Words add_pairs(const Words& sum, const Words& a, const Words& b) {
+    return both_words(
+        [&](int h) { return _mm256_add_epi32(sum.half[h], _mm256_madd_epi16(a.half[h], b.half[h])); });
   }
   static Words add_magnitudes(const Words& sum, const Words& a) {
     const __m256i ones = _mm256_set1_epi16(1);

@@ -1,5 +1,5 @@
 // Kernels for processors with AVX-512 (F, BW, VL, DQ, VNNI).
-#include "sim/engine/kernels/kernel_body.h"
+#include "sim/engine/kernels/kernel_ahead.h"
 
 #include <immintrin.h>
 
@@ -39,9 +39,13 @@ struct Avx512 {
 
   static Words all_words(std::int64_t x) { return _mm512_set1_epi32(static_cast<int>(x)); }
   static Words add_words(Words a, Words b) { return _mm512_add_epi32(a, b); }
+  static Words sub_words(Words a, Words b) { return _mm512_sub_epi32(a, b); }
+  static Words min_words(Words a, Words b) { return _mm512_min_epi32(a, b); }
+  static Words max_words(Words a, Words b) { return _mm512_max_epi32(a, b); }
   static Words words_and(Words a, Words b) { return _mm512_and_si512(a, b); }
   static Words word_signs(Words a) { return _mm512_srai_epi32(a, 31); }
   static Words shift_words_down(Words a, Count n) { return _mm512_sra_epi32(a, n); }
+  static Words shift_words_up(Words a, Count n) { return _mm512_sll_epi32(a, n); }
   static Words word_sizes(Words a) { return _mm512_abs_epi32(a); }
   static Words max_unsigned(Words a, Words b) { return _mm512_max_epu32(a, b); }
 
@@ -53,6 +57,16 @@ struct Avx512 {
   }
 
   static Doubles to_doubles(Longs a) { return _mm512_cvtepi64_pd(a); }
+  static Doubles low_doubles(Words a) { return _mm512_cvtepi32_pd(_mm512_castsi512_si256(a)); }
+  static Doubles high_doubles(Words a) { return _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(a, 1)); }
+  static Doubles least_of(Doubles a, Doubles b) { return _mm512_min_pd(a, b); }
+  static Doubles most_of(Doubles a, Doubles b) { return _mm512_max_pd(a, b); }
+  static Words floor_words(Doubles low, Doubles high) {
+    const auto floor = [](Doubles a) {
+      return _mm512_cvt_roundpd_epi32(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    };
+    return _mm512_inserti64x4(_mm512_castsi256_si512(floor(low)), floor(high), 1);
+  }
   static Doubles plus(Doubles a, Doubles b) { return _mm512_add_pd(a, b); }
   static Doubles where(Longs mask, Doubles x) { return _mm512_and_pd(_mm512_castsi512_pd(mask), x); }
   static Doubles times(Doubles a, Doubles b) { return _mm512_mul_pd(a, b); }
@@ -63,6 +77,7 @@ struct Avx512 {
   static Words add_products(Words sum, Words a, const std::uint32_t* b) {
     return _mm512_dpwssd_epi32(sum, load_words(b), a);
   }
+  static Words add_pairs(Words sum, Words a, Words b) { return _mm512_dpwssd_epi32(sum, a, b); }
   static Words add_magnitudes(Words sum, Words a) {
     const Words ones = _mm512_set1_epi16(1), signs = _mm512_srai_epi16(a, 15);
     return _mm512_sub_epi32(_mm512_dpwssd_epi32(sum, _mm512_xor_si512(a, signs), ones),

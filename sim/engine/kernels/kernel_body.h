@@ -3,12 +3,12 @@
 // standard library: code made for one processor must not be picked for another.
 #pragma once
 
-#include "sim/engine/kernels/kernel_stage.h"
+#include "sim/engine/kernels/kernel_slim.h"
 
 namespace hopmesh::engine {
 namespace {
 
-template <typename Isa> struct Kernel : KernelStage<Isa> {
+template <typename Isa> struct Kernel : KernelSlim<Isa> {
   using typename KernelStage<Isa>::Words;
   using typename KernelStage<Isa>::Stage;
 
@@ -17,6 +17,26 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     if (source.kind == Source::together) return Isa::load_links(plane + source.base);
     if (source.kind == Source::near) return Isa::pick(plane + source.base, source.lane);
     return Isa::gather(plane, far_slot + source.base);
+  }
+
+  /// Constants of the run and what is left behind; of projected arrays some more.
+  template <bool held, bool = true> struct Stages {
+    Stage c;
+    [[gnu::always_inline]] Stages(const KernelArgs& a, const LaneExtremes& s) : c(a, s) {}
+  };
+  template <bool also> struct Stages<true, also> {
+    Stage c;
+    typename KernelHeld<Isa>::Held held;
+    [[gnu::always_inline]] Stages(const KernelArgs& a, const LaneExtremes& s) : c(a, s), held(a, s) {}
+  };
+
+  template <Normalise how, bool plain, bool wide, bool by_sum>
+  [[gnu::always_inline]] static Words publish(const Sum<Isa, wide>& sum, std::size_t at,
+                                              Stages<is_step(how)>& c) {
+    if constexpr (is_step(how))
+      return KernelHeld<Isa>::template publish_step<how, plain, wide, by_sum>(sum, at, c.c, c.held);
+    else
+      return KernelStage<Isa>::template publish<how, plain, wide, by_sum>(sum, at, c.c);
   }
 
   /// A block on its way through the three stages of `fire`. The sums of x, y and z are three members instead
@@ -60,35 +80,35 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
   };
 
   // Cells of one neuron: nothing in a block waits, and the processor looks from one block into the next.
-  template <Normalise how, bool plain, bool wide>
+  template <Normalise how, bool plain, bool wide, bool by_sum>
   static void fire_single(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
-    Stage c(a, extremes);
+    Stages<is_step(how)> c(a, extremes);
     Block<1, wide> at;
     for (std::size_t block = first; block < last; ++block) {
       at.load(a, block);
-      const Words link = KernelStage<Isa>::template publish<how, plain>(at.x, at.slot, c);
+      const Words link = publish<how, plain, wide, by_sum>(at.x, at.slot, c);
       Isa::store_links(a.next_zz + at.slot, Isa::halves(link, Isa::up_16(link)));
     }
-    c.store_extremes(extremes);
+    c.c.template store_extremes<by_sum>(extremes);
   }
 
   // A cell's neurons wait for each other, a group's cells do not. So the z of one block fires beside the y of
   // the next, the x of the one after and the sums of a fourth: four short chains at a time instead of one
   // long one, which the processor could not look past. A block that reads what is still on its way waits for
   // it.
-  template <int P, Normalise how, bool plain, bool wide>
+  template <int P, Normalise how, bool plain, bool wide, bool by_sum>
   static void fire(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
-    if constexpr (P == 1) return fire_single<how, plain, wide>(a, first, last, extremes);
-    Stage c(a, extremes);
+    if constexpr (P == 1) return fire_single<how, plain, wide, by_sum>(a, first, last, extremes);
+    Stages<is_step(how)> c(a, extremes);
     Block<P, wide> summed, with_x, with_y;
     for (std::size_t block = first; true;) {
       if (P == 3 && with_y.live) {
-        const Words link = KernelStage<Isa>::template publish<how, plain>(with_y.z, 3 * with_y.slot + 32, c);
+        const Words link = publish<how, plain, wide, by_sum>(with_y.z, 3 * with_y.slot + 32, c);
         Isa::store_links(a.next_zz + with_y.slot, Isa::halves(link, Isa::up_16(link)));
       }
       with_y.live = P == 3 && with_x.live;
       if (with_x.live) {
-        const Words link = KernelStage<Isa>::template publish<how, plain>(with_x.y, P * with_x.slot + 16, c);
+        const Words link = publish<how, plain, wide, by_sum>(with_x.y, P * with_x.slot + 16, c);
         const Words xy = Isa::halves(with_x.xy, Isa::up_16(link));
         Isa::store_links(a.next_xy + with_x.slot, xy);
         with_y.slot = with_x.slot;
@@ -97,8 +117,8 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
       }
       with_x.live = summed.live;
       if (summed.live) {
-        with_x.xy = Isa::halves(KernelStage<Isa>::template publish<how, plain>(summed.x, P * summed.slot, c),
-                                summed.xy);
+        with_x.xy =
+            Isa::halves(publish<how, plain, wide, by_sum>(summed.x, P * summed.slot, c), summed.xy);
         with_x.slot = summed.slot;
         with_x.w = summed.w;
         with_x.y = summed.y;
@@ -112,7 +132,7 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
       else if (!on_their_way)
         break;
     }
-    c.store_extremes(extremes);
+    c.c.template store_extremes<by_sum>(extremes);
   }
 
   template <int P> static void rows(const KernelArgs& a, std::size_t block, std::uint32_t* sums) {
@@ -125,26 +145,6 @@ template <typename Isa> struct Kernel : KernelStage<Isa> {
     for (int p = 0; p < P; ++p) Isa::store_words(sums + 16 * p, sum[p]);
   }
 };
-
-#define HM_KERNELS(P, how)                                                                                   \
-  {                                                                                                          \
-    {Kernel<Isa>::template fire<P, how, false, false>, Kernel<Isa>::template fire<P, how, false, true>},     \
-        {Kernel<Isa>::template fire<P, how, true, false>, Kernel<Isa>::template fire<P, how, true, true>},   \
-  }
-#define HM_CELLS(P)                                                                                          \
-  {                                                                                                          \
-    HM_KERNELS(P, Normalise::multiply), HM_KERNELS(P, Normalise::scale), HM_KERNELS(P, Normalise::divide),   \
-        HM_KERNELS(P, Normalise::sign)                                                                       \
-  }
-
-template <typename Isa> constexpr KernelSet kernels_of(const char* name) {
-  return {name,
-          {HM_CELLS(1), HM_CELLS(2), HM_CELLS(3)},
-          {Kernel<Isa>::template rows<1>, Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
-}
-
-#undef HM_CELLS
-#undef HM_KERNELS
 
 } // namespace
 } // namespace hopmesh::engine

@@ -1,22 +1,49 @@
 #include "sim/engine/kernels/kernel_fit.h"
 
+#include "sim/engine/division.h"
+
+#include <cmath>
+
 namespace hopmesh::engine {
 
 Normalise normalise_of(const NeuronPlan& plan) {
+  const bool divider = plan.normaliser == spec::Normaliser::divider;
+  if (plan.output == spec::Output::projected)
+    return divider ? Normalise::step_divide : Normalise::step_multiply;
+  if (plan.output == spec::Output::momentum)
+    return divider ? Normalise::ahead_divide : Normalise::ahead_multiply;
   return plan.binary                                       ? Normalise::sign
          : plan.normaliser == spec::Normaliser::reciprocal ? Normalise::multiply
-         : plan.normaliser == spec::Normaliser::divider    ? Normalise::divide
+         : divider                                         ? Normalise::divide
                                                            : Normalise::scale;
 }
 
 namespace {
 
+// s is held within `hold` times its divisor, so a quotient is less than four.
+std::string why_no_held_normaliser(const NeuronPlan& plan) {
+  const int held = plan.norm_bits + bit_length(static_cast<std::uint64_t>(plan.hold * plan.gain) - 1);
+  const int drive = plan.formats.drive.fraction_bits();
+  if (plan.output == spec::Output::momentum && plan.formats.state.fraction_bits() > 29)
+    return "a state of 30 places with momentum";
+  if (plan.normaliser == spec::Normaliser::reciprocal) {
+    if (held + plan.norm_up + plan.reciprocal_bits > 61)
+      return "s times the reciprocal needs more than 62 bits";
+    if (plan.multiplier_places < 1) return "the reciprocal is coarser than the drive";
+  } else {
+    if (plan.formats.drive.rounding == spec::Rounding::rnd_conv) return "SC_RND_CONV behind a divider";
+    if (plan.ratio_up < 0 || held + drive > 50 || plan.norm_bits + plan.gain_places + drive + 2 > 47)
+      return "a quotient of more than 50 bits";
+  }
+  return "";
+}
+
 std::string why_no_normaliser(const NeuronPlan& plan) {
   if (plan.binary) return "";
+  if (plan.hold > 0) return why_no_held_normaliser(plan);
   const int row = plan.norm_bits, sum = plan.formats.accumulator.width;
   if (plan.normaliser == spec::Normaliser::reciprocal) {
-    const int above = plan.formats.drive.fraction_bits() - plan.ratio_up; // from N's last place to s's
-    const int product = std::max(above, 0) + row + plan.reciprocal_bits;
+    const int product = std::max(plan.norm_up, 0) + row + plan.reciprocal_bits;
     if (product > 61 || row + plan.reciprocal_bits > 61)
       return "s times the reciprocal needs more than 62 bits";
     if (plan.multiplier_places < 1) return "the reciprocal is coarser than the drive";
@@ -52,6 +79,24 @@ KernelDivision kernel_division(int ratio_up, spec::Rounding mode) {
   const auto halves = [](std::int64_t count) { return 0.5 * static_cast<double>(count); };
   return {0.25 + halves(rule.ones), halves(rule.ones_if_negative), rule.half ? 0.5 : 0.0,
           rule.unit_if_negative ? 1.0 : 0.0, ratio_up};
+}
+
+// A product of s and r has so few bits that a double holds it, and what is added to round it.
+bool fits_slim(const NeuronPlan& plan) {
+  const auto adds_only = [](spec::Rounding mode) {
+    return mode == spec::Rounding::rnd || mode == spec::Rounding::trn;
+  };
+  const spec::Formats& f = plan.formats;
+  if (plan.output != spec::Output::momentum || f.state.fraction_bits() > 28) return false;
+  if (!adds_only(f.drive.rounding) || !adds_only(f.state.rounding) || !adds_only(f.link.rounding)) return false;
+  if (plan.normaliser == spec::Normaliser::reciprocal)
+    return plan.reciprocal_bits <= 20 && plan.multiplier_places <= 52;
+  return 31 + plan.ratio_up <= 50;
+}
+
+KernelQuotient slim_quotient(const NeuronPlan& plan) {
+  const KernelDivision division = kernel_division(plan.ratio_up, plan.formats.drive.rounding);
+  return {std::ldexp(1.0, plan.ratio_up), division.to_dividend, division.to_quotient};
 }
 
 } // namespace hopmesh::engine

@@ -12,6 +12,10 @@ Normalise normalise_of(const NeuronPlan& plan);
 /// Why the kernels cannot compute the array, for people; empty if they can.
 std::string why_no_kernel(const NeuronPlan& plan);
 
+/// Do slim kernels have a way for momentum with these formats? Its rows are judged at START.
+bool fits_slim(const NeuronPlan& plan);
+KernelQuotient slim_quotient(const NeuronPlan& plan);
+
 KernelDivision kernel_division(int ratio_up, spec::Rounding mode);
 
 } // namespace hopmesh::engine

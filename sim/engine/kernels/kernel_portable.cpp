@@ -1,6 +1,6 @@
 // The kernels in plain C++, for every processor; and the meaning of each operation, for readers of the
 // others.
-#include "sim/engine/kernels/kernel_body.h"
+#include "sim/engine/kernels/kernel_ahead.h"
 
 namespace hopmesh::engine {
 namespace {
@@ -109,6 +109,17 @@ struct Portable {
       return wrapped(static_cast<std::uint32_t>(a.at[l]) + static_cast<std::uint32_t>(b.at[l]));
     });
   }
+  static Words sub_words(const Words& a, const Words& b) {
+    return each_word([&](int l) {
+      return wrapped(static_cast<std::uint32_t>(a.at[l]) - static_cast<std::uint32_t>(b.at[l]));
+    });
+  }
+  static Words min_words(const Words& a, const Words& b) {
+    return each_word([&](int l) { return a.at[l] < b.at[l] ? a.at[l] : b.at[l]; });
+  }
+  static Words max_words(const Words& a, const Words& b) {
+    return each_word([&](int l) { return a.at[l] > b.at[l] ? a.at[l] : b.at[l]; });
+  }
   static Words words_and(const Words& a, const Words& b) {
     return each_word([&](int l) { return a.at[l] & b.at[l]; });
   }
@@ -117,6 +128,9 @@ struct Portable {
   }
   static Words shift_words_down(const Words& a, Count n) {
     return each_word([&](int l) { return a.at[l] >> n; });
+  }
+  static Words shift_words_up(const Words& a, Count n) {
+    return each_word([&](int l) { return wrapped(static_cast<std::uint32_t>(a.at[l]) << n); });
   }
   static Words word_sizes(const Words& a) {
     return each_word([&](int l) {
@@ -153,6 +167,21 @@ struct Portable {
   static Doubles times(const Doubles& a, const Doubles& b) {
     return each_double([&](int l) { return a.at[l] * b.at[l]; });
   }
+  static Doubles low_doubles(const Words& a) {
+    return each_double([&](int l) { return static_cast<double>(a.at[l]); });
+  }
+  static Doubles high_doubles(const Words& a) {
+    return each_double([&](int l) { return static_cast<double>(a.at[8 + l]); });
+  }
+  static Doubles least_of(const Doubles& a, const Doubles& b) {
+    return each_double([&](int l) { return a.at[l] < b.at[l] ? a.at[l] : b.at[l]; });
+  }
+  static Doubles most_of(const Doubles& a, const Doubles& b) {
+    return each_double([&](int l) { return a.at[l] > b.at[l] ? a.at[l] : b.at[l]; });
+  }
+  static Words floor_words(const Doubles& low, const Doubles& high) {
+    return narrow(floor_longs(low), floor_longs(high));
+  }
   static Longs floor_longs(const Doubles& a) {
     return each([&](int l) {
       const auto whole = static_cast<std::int64_t>(a.at[l]);
@@ -167,6 +196,12 @@ struct Portable {
     return each_word([&](int l) {
       const auto word = static_cast<std::uint32_t>(a.at[l]);
       return sum.at[l] + half(word, 0) * half(b[l], 0) + half(word, 1) * half(b[l], 1);
+    });
+  }
+  static Words add_pairs(const Words& sum, const Words& a, const Words& b) {
+    return each_word([&](int l) {
+      const auto x = static_cast<std::uint32_t>(a.at[l]), y = static_cast<std::uint32_t>(b.at[l]);
+      return sum.at[l] + half(x, 0) * half(y, 0) + half(x, 1) * half(y, 1);
     });
   }
   static Words add_magnitudes(const Words& sum, const Words& a) {

@@ -1,32 +1,10 @@
-// The output stage of sixteen neurons, for any instruction set: the first half of kernel_body.h.
+// The output stage of sixteen neurons, modified or binary, for any instruction set: a part of kernel_body.h.
 #pragma once
 
-#include "sim/engine/kernels/kernel.h"
+#include "sim/engine/kernels/kernel_sum.h"
 
 namespace hopmesh::engine {
 namespace {
-
-/// Sums of products of sixteen rows in 32 bits: for arrays whose every row fits.
-template <typename Isa, bool wide> struct Sum {
-  typename Isa::Words sum = Isa::no_words();
-  void add(typename Isa::Words links, const std::uint32_t* weights) {
-    sum = Isa::add_products(sum, links, weights);
-  }
-  typename Isa::Longs low() const { return Isa::low(sum); }
-  typename Isa::Longs high() const { return Isa::high(sum); }
-};
-
-/// Sums in 64 bits, added pair by pair: for arrays with a row that 32 bits do not hold.
-template <typename Isa> struct Sum<Isa, true> {
-  typename Isa::Longs low_sum = Isa::all(0), high_sum = Isa::all(0);
-  void add(typename Isa::Words links, const std::uint32_t* weights) {
-    const auto pairs = Isa::add_products(Isa::no_words(), links, weights);
-    low_sum = Isa::add(low_sum, Isa::low(pairs));
-    high_sum = Isa::add(high_sum, Isa::high(pairs));
-  }
-  typename Isa::Longs low() const { return low_sum; }
-  typename Isa::Longs high() const { return high_sum; }
-};
 
 /// What a kernel calls is forced into it: a call would spill every register (a third of the speed), and left
 /// to itself a compiler that sees so many kernels calls.
@@ -56,7 +34,7 @@ template <typename Isa> struct KernelStage {
     const KernelArgs& args;
     Rounder drive, state;
     Words link_add, link_add_if_negative, link_add_if_odd, largest;
-    Longs one, minus_one, least_sum, largest_sum, least_drive, largest_drive;
+    Longs one, minus_one, least_sum, largest_sum, least_drive, largest_drive, moving, bound, minus_bound;
     typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
     typename Isa::Doubles to_dividend, to_dividend_if_negative, to_quotient, to_quotient_if_negative;
 
@@ -66,19 +44,21 @@ template <typename Isa> struct KernelStage {
           link_add_if_odd(Isa::all_words(a.link.add_if_odd)), largest(Isa::load_words(s.largest_change)),
           one(Isa::all(a.one_drive)), minus_one(Isa::all(-a.one_drive)), least_sum(Isa::load(s.least_sum)),
           largest_sum(Isa::load(s.largest_sum)), least_drive(Isa::load(s.least_drive)),
-          largest_drive(Isa::load(s.largest_drive)), link_places(Isa::count(a.link.places)),
+          largest_drive(Isa::load(s.largest_drive)), moving(Isa::load(s.largest_moving)),
+          bound(Isa::all(a.one_state)), minus_bound(Isa::all(-a.one_state)), link_places(Isa::count(a.link.places)),
           bias_up(Isa::count(a.bias_up)), state_fraction(Isa::count(a.state_fraction)),
           ratio_up(Isa::count(a.division.ratio_up)), to_dividend(Isa::all_doubles(a.division.to_dividend)),
           to_dividend_if_negative(Isa::all_doubles(a.division.to_dividend_if_negative)),
           to_quotient(Isa::all_doubles(a.division.to_quotient)),
           to_quotient_if_negative(Isa::all_doubles(a.division.to_quotient_if_negative)) {}
 
-    void store_extremes(LaneExtremes& s) const {
+    template <bool by_sum> void store_extremes(LaneExtremes& s) const {
       Isa::store_words(s.largest_change, largest);
       Isa::store(s.least_sum, least_sum);
       Isa::store(s.largest_sum, largest_sum);
       Isa::store(s.least_drive, least_drive);
       Isa::store(s.largest_drive, largest_drive);
+      if constexpr (by_sum) Isa::store(s.largest_moving, moving);
     }
   };
 
@@ -100,14 +80,27 @@ template <typename Isa> struct KernelStage {
     return Isa::min(Isa::max(rounded<plain>(s, c.drive), c.minus_one), c.one);
   }
 
-  /// s to Delta V for eight neurons. R u = u - V |u|, both with the places of V and u together.
-  template <Normalise how, bool plain>
-  [[gnu::always_inline]] static Longs change_of(Longs s, Longs V, const std::int64_t* multiplier, Stage& c) {
-    const Longs u = drive_of<how, plain>(s, multiplier, c);
+  [[gnu::always_inline]] static void widen_swings(Longs s, Longs u, Stage& c) {
     c.least_sum = Isa::min(c.least_sum, s);
     c.largest_sum = Isa::max(c.largest_sum, s);
     c.least_drive = Isa::min(c.least_drive, u);
     c.largest_drive = Isa::max(c.largest_drive, u);
+  }
+
+  /// |s| of those that may still move: `base`, from where they move, is not at a bound that s pushes them to.
+  [[gnu::always_inline]] static void note_moving(Longs s, Longs base, Stage& c) {
+    const Longs none = Isa::all(0);
+    const Longs up = Isa::bits_and(Isa::max(s, none), Isa::signs(Isa::sub(base, c.bound)));
+    const Longs down =
+        Isa::bits_and(Isa::max(Isa::sub(none, s), none), Isa::signs(Isa::sub(c.minus_bound, base)));
+    c.moving = Isa::max(c.moving, Isa::max(up, down));
+  }
+
+  /// s to Delta V for eight neurons. R u = u - V |u|, both with the places of V and u together.
+  template <Normalise how, bool plain>
+  [[gnu::always_inline]] static Longs change_of(Longs s, Longs V, const std::int64_t* multiplier, Stage& c) {
+    const Longs u = drive_of<how, plain>(s, multiplier, c);
+    widen_swings(s, u, c);
     const Longs product =
         Isa::sub(Isa::shift_up(u, c.state_fraction), Isa::multiply_low(V, Isa::absolute(u)));
     return rounded<plain>(product, c.state);
@@ -123,14 +116,24 @@ template <typename Isa> struct KernelStage {
     return Isa::shift_words_down(sum, c.link_places);
   }
 
+  /// s of the first eight neurons, and of the other eight.
+  template <bool wide>
+  [[gnu::always_inline]] static Longs low_sum(const Sum<Isa, wide>& sum, std::size_t at, const Stage& c) {
+    return Isa::add(Isa::shift_up(Isa::load_widened(c.args.bias + at), c.bias_up), sum.low());
+  }
+  template <bool wide>
+  [[gnu::always_inline]] static Longs high_sum(const Sum<Isa, wide>& sum, std::size_t at, const Stage& c) {
+    return Isa::add(Isa::shift_up(Isa::load_widened(c.args.bias + at + 8), c.bias_up), sum.high());
+  }
+
   /// The output stage of sixteen neurons; returns their links. |Delta V| may be 2^31: unsigned.
-  template <Normalise how, bool plain, bool wide>
+  template <Normalise how, bool plain, bool wide, bool by_sum>
   [[gnu::always_inline]] static Words publish(const Sum<Isa, wide>& sum, std::size_t at, Stage& c) {
     const KernelArgs& a = c.args;
     const Words V = Isa::load_words(a.state + at);
-    const Longs s0 = Isa::add(Isa::shift_up(Isa::load_widened(a.bias + at), c.bias_up), sum.low());
-    const Longs s1 = Isa::add(Isa::shift_up(Isa::load_widened(a.bias + at + 8), c.bias_up), sum.high());
+    const Longs s0 = low_sum(sum, at, c), s1 = high_sum(sum, at, c);
     const Longs V0 = Isa::load_widened(a.state + at), V1 = Isa::load_widened(a.state + at + 8);
+    if constexpr (by_sum) note_moving(s0, V0, c), note_moving(s1, V1, c);
     const Words change = Isa::narrow(change_of<how, plain>(s0, V0, a.multiplier + at, c),
                                      change_of<how, plain>(s1, V1, a.multiplier + at + 8, c));
     c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(change));

@@ -1,0 +1,98 @@
+// Sweeps of momentum, and all kernels of an instruction set: the last part of kernel_body.h.
+#pragma once
+
+#include "sim/engine/kernels/kernel_body.h"
+
+namespace hopmesh::engine {
+namespace {
+
+/// All neurons fire at once, so nothing waits for anything.
+template <typename Isa> struct KernelAhead : Kernel<Isa> {
+  using typename Kernel<Isa>::Words;
+
+  /// `publish(sum, p)` fires neuron p of sixteen cells and returns its links.
+  template <int P, bool wide, typename Publish>
+  [[gnu::always_inline]] static void fire_block(const KernelArgs& a, std::size_t block, Publish publish) {
+    typename Kernel<Isa>::template Block<P, wide> at;
+    at.load(a, block);
+    const Words x = publish(at.x, 0);
+    if constexpr (P == 1) return Isa::store_links(a.next_zz + at.slot, Isa::halves(x, Isa::up_16(x)));
+    if constexpr (P > 1) Isa::store_links(a.next_xy + at.slot, Isa::halves(x, Isa::up_16(publish(at.y, 1))));
+    if constexpr (P < 3) return;
+    const Words z = publish(at.z, 2);
+    Isa::store_links(a.next_zz + at.slot, Isa::halves(z, Isa::up_16(z)));
+  }
+
+  template <int P, Normalise how, bool plain, bool wide, bool by_sum>
+  static void fire(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
+    typename Kernel<Isa>::Stage c(a, extremes);
+    typename KernelHeld<Isa>::Held h(a, extremes);
+    for (std::size_t block = first; block < last; ++block)
+      fire_block<P, wide>(a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
+        return KernelHeld<Isa>::template publish_ahead<how, plain, wide, by_sum>(
+            sum, (P * block + p) * 16, c, h);
+      });
+    c.template store_extremes<by_sum>(extremes);
+    Isa::store(extremes.along, h.along);
+  }
+
+  template <int P, Normalise how, bool by_sum>
+  static void fire_slim(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
+    while (first < last) {
+      const std::size_t end = last - first < slim_blocks ? last : first + slim_blocks;
+      typename KernelSlim<Isa>::Slim c(a);
+      for (std::size_t block = first; block < end; ++block)
+        fire_block<P, false>(a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
+          return KernelSlim<Isa>::template publish_slim<how, by_sum>(sum, (P * block + p) * 16, c);
+        });
+      c.store_extremes(extremes);
+      first = end;
+    }
+  }
+};
+
+// Of modified and binary outputs: a kernel for rounding that only adds, and one for sums that 32 bits hold.
+#define HM_FOUR(P, how)                                                                                      \
+  {                                                                                                          \
+    {Kernel<Isa>::template fire<P, how, false, false, false>,                                                \
+     Kernel<Isa>::template fire<P, how, false, true, false>},                                                \
+        {Kernel<Isa>::template fire<P, how, true, false, false>,                                             \
+         Kernel<Isa>::template fire<P, how, true, true, false>},                                             \
+  }
+// The rest: a kernel where both hold, and one for all else.
+#define HM_TWO(any, most)                                                                                    \
+  {                                                                                                          \
+    {any, any}, { most, any }                                                                                \
+  }
+#define HM_BOTH(P, how, by_sum)                                                                              \
+  HM_TWO((Kernel<Isa>::template fire<P, how, false, true, by_sum>),                                          \
+         (Kernel<Isa>::template fire<P, how, true, false, by_sum>))
+#define HM_AHEAD(P, how, by_sum)                                                                             \
+  HM_TWO((KernelAhead<Isa>::template fire<P, how, false, true, by_sum>),                                     \
+         (KernelAhead<Isa>::template fire_slim<P, how, by_sum>))
+#define HM_CELLS(P)                                                                                          \
+  {                                                                                                          \
+    {HM_FOUR(P, Normalise::multiply), HM_BOTH(P, Normalise::multiply, true)},                                \
+        {HM_FOUR(P, Normalise::scale), HM_BOTH(P, Normalise::scale, true)},                                  \
+        {HM_FOUR(P, Normalise::divide), HM_BOTH(P, Normalise::divide, true)},                                \
+        {HM_FOUR(P, Normalise::sign), HM_BOTH(P, Normalise::sign, true)},                                    \
+        {HM_BOTH(P, Normalise::step_multiply, false), HM_BOTH(P, Normalise::step_multiply, true)},           \
+        {HM_BOTH(P, Normalise::step_divide, false), HM_BOTH(P, Normalise::step_divide, true)},               \
+        {HM_AHEAD(P, Normalise::ahead_multiply, false), HM_AHEAD(P, Normalise::ahead_multiply, true)},       \
+        {HM_AHEAD(P, Normalise::ahead_divide, false), HM_AHEAD(P, Normalise::ahead_divide, true)},           \
+  }
+
+template <typename Isa> constexpr KernelSet kernels_of(const char* name) {
+  return {name,
+          {HM_CELLS(1), HM_CELLS(2), HM_CELLS(3)},
+          {Kernel<Isa>::template rows<1>, Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
+}
+
+#undef HM_CELLS
+#undef HM_AHEAD
+#undef HM_BOTH
+#undef HM_TWO
+#undef HM_FOUR
+
+} // namespace
+} // namespace hopmesh::engine

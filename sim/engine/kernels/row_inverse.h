@@ -1,0 +1,20 @@
+// What kernels multiply s of a row with, made of what divides it.
+#pragma once
+
+#include "sim/engine/neuron_plan.h"
+
+namespace hopmesh::engine {
+
+struct RowInverse {
+  std::int64_t multiplier = 0; ///< an integer, or the bits of a double
+  std::int64_t most_sum = 0;   ///< s is held within it; of held inverses
+};
+
+/// Of modified outputs. An empty row has none, and u = 0.
+RowInverse modified_inverse(const NeuronPlan& plan, std::uint64_t norm);
+/// Of projected and momentum. Where s has no divisor, it is at its limit as soon as it is not zero.
+RowInverse held_inverse(const NeuronPlan& plan, std::uint64_t norm);
+/// Of slim kernels: always a double. Behind a divider, s must have a divisor.
+RowInverse slim_inverse(const NeuronPlan& plan, std::uint64_t norm);
+
+} // namespace hopmesh::engine
