@@ -7,7 +7,7 @@
 #include "firmware/try.h"
 
 /* A correction is expected to use so much of the array's range: what clips is lost until the next one. */
-static const double wanted_change = 0.125;
+static const double wanted_change = 0.5;
 /* From here on an answer counts as clipped; the next correction expects so many times more. */
 static const double clipped_change = 0.875, caution = 8;
 static const double least_softening = 0.0625; /* of what is expected, in one step */

@@ -71,7 +71,8 @@ StepState ReferenceMover::state() const {
           values_of(state_.acceleration),
           values_of(state_.V),
           values_of(state_.previous_position),
-          values_of(state_.previous_velocity)};
+          values_of(state_.previous_velocity),
+          {}};
 }
 
 void ReferenceMover::restore(const StepState& state, const std::vector<SignalRange>&) {

@@ -103,8 +103,7 @@ class FlownSheet {
   hm_step_result step() {
     const hm_solver solver{&driver, hm_driver_relax, hm_driver_correct, hm_driver_room};
     hm_step_result result;
-    if (hm_step(&mesh.mesh, &motion, &solver, &state, &result) != HM_OK)
-      throw std::runtime_error("no step");
+    if (hm_step(&mesh.mesh, &motion, &solver, &state, &result) != HM_OK) throw std::runtime_error("no step");
     return result;
   }
 
@@ -151,7 +150,7 @@ inline spec::ArraySpec momentum_array(int word, int state) {
   const auto format = [](int width, int integer) {
     return spec::NumberFormat{width, integer, spec::Rounding::rnd, spec::Overflow::sat};
   };
-  a.formats.weight = format(word, 1), a.formats.link = format(word, 2);
+  a.formats.weight = format(word, 1), a.formats.link = format(word, 1);
   a.formats.state = a.formats.drive = format(state, 2);
   return a;
 }
