@@ -50,7 +50,7 @@
   HM_WHOLE_WORD(X, CAP_WINDOW_MOMENTUM, RO)                                                                  \
   HM_WHOLE_WORD(X, CAP_RELAXATION, RO)                                                                       \
   X(CONTROL, START, 0, 1, WO, "begin a run")                                                                 \
-  X(CONTROL, RESET, 1, 1, WO, "registers to their resets, weights, biases and outputs to zero")              \
+  X(CONTROL, RESET, 1, 1, WO, "registers to their resets, all memories to zero")                             \
   X(CONTROL, ABORT, 2, 1, WO, "end the run with the sweep at hand")                                          \
   X(STATUS, BUSY, 0, 1, RO, "a run or a RESET is at work")                                                   \
   X(STATUS, DONE, 1, 1, RO, "a run has ended")                                                               \

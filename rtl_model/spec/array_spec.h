@@ -28,9 +28,6 @@ struct Formats {
   NumberFormat link{16, 2, Rounding::rnd, Overflow::sat};
 };
 
-/// Codes of the table of m, whatever the other formats: values in [-1, 1).
-inline constexpr NumberFormat momentum_format{16, 1, Rounding::rnd, Overflow::sat};
-
 /// A class of signals: its name in keys, where its format stands, what it holds, and the integer bits that it
 /// cannot do without (two where +1 must have a code).
 struct SignalClass {

@@ -65,6 +65,9 @@ struct NumberFormat {
   }
 };
 
+/// Codes of the table of m, whatever the other formats: values in [-1, 1).
+inline constexpr NumberFormat momentum_format{16, 1, Rounding::rnd, Overflow::sat};
+
 template <typename Mode, std::size_t n>
 std::optional<Mode> mode_named(std::string_view name, const std::array<std::string_view, n>& names) {
   for (std::size_t k = 0; k < n; ++k)

@@ -72,12 +72,12 @@ class Device : public HostBus {
   Engine engine_;
   const spec::MemoryMap map_;
   const std::atomic<bool>& stop_;
-  std::array<std::uint32_t, 64> registers_{};                   ///< by offset / 4
-  std::vector<std::uint32_t> codes_;                            ///< of packed words on their way
+  std::array<std::uint32_t, 64> registers_{}; ///< by offset / 4
+  std::vector<std::uint32_t> codes_;          ///< of packed words on their way
   std::uint64_t held_ = 0, held_at_reset_ = 0;
-  std::uint64_t run_cycles_ = 0, largest_sum_ = 0;              ///< of the last run
-  std::uint64_t now_ = 0;                                       ///< cycle in which the next transfer begins
-  std::uint64_t reset_until_ = 0, run_from_ = 0; ///< cycles; run_from_: in which START is taken
+  std::uint64_t run_cycles_ = 0, largest_sum_ = 0; ///< of the last run
+  std::uint64_t now_ = 0;                          ///< cycle in which the next transfer begins
+  std::uint64_t reset_until_ = 0, run_from_ = 0;   ///< cycles; run_from_: in which START is taken
   bool running_ = false;
   bool begun_ = false; ///< and has been prepared
   bool aborted_ = false;

@@ -15,7 +15,7 @@ struct NeuronPlan : spec::Points {
   spec::Schedule schedule;
   spec::Normaliser normaliser;
   int lanes, reciprocal_bits, neurons_per_cell;
-  bool exact;  ///< the accumulator loses nothing
+  bool exact; ///< the accumulator loses nothing
   spec::Output output;
   bool binary; ///< u is the sign of s, and nothing is normalised
   /// s is multiplied by gain * 2^-gain_places before it is divided: omega, or one.
@@ -30,6 +30,8 @@ struct NeuronPlan : spec::Points {
   int multiplier_places; ///< of s times gain and reciprocal of such an N, behind the drive's last place
   std::int64_t one_state, one_drive, one_link;
   std::int64_t most_drive; ///< the limit of |u|
+  /// A link shows 1 from the first code of the state on, and -1 up to the second: s holds a neuron there.
+  std::int64_t least_at_one, most_at_minus_one;
 };
 
 } // namespace hopmesh::engine

@@ -69,7 +69,8 @@ class SweepCore {
 
   /// N of every row and its reciprocal, for blocks [first, last).
   virtual void prepare(std::size_t first, std::size_t last) = 0;
-  /// Called after all blocks were prepared and before the first sweep. `by_sum`: the largest |s| is asked for.
+  /// Called after all blocks were prepared and before the first sweep. `by_sum`: the largest |s| is asked
+  /// for.
   virtual void begin_run(bool by_sum) = 0;
   /// Fires every neuron of the blocks [first, last), as if one after the other; of one group or of several.
   virtual void fire(std::size_t first, std::size_t last, const SweepOrder& order, SweepRecord& record) = 0;

@@ -29,8 +29,8 @@ std::vector<std::size_t> lags(const Layout& layout, std::size_t sweeps, bool tea
   return lag;
 }
 
-Detected detected(const SweepRecord& record) {
-  return {record.largest_change(), record.largest_sum(), record.all_along()};
+Detected detected(const SweepRecord& record, bool by_sum) {
+  return {record.largest_change(), by_sum ? record.largest_sum() : 0, record.all_along()};
 }
 
 void merge(Detected& all, const Detected& more) {
@@ -99,7 +99,7 @@ std::uint32_t Sweeper::relax_plainly(std::uint32_t limit, const std::atomic<bool
       fire_sweep(member, order, own[member]);
       if (member == 0) {
         result.detected = {};
-        for (const SweepRecord& o : own) merge(result.detected, detected(o));
+        for (const SweepRecord& o : own) merge(result.detected, detected(o, rule_.by_sum()));
         end_sweeps(1, result.detected);
         result.over = rule_.over(result.detected);
         rule_.pass(result.detected);
@@ -140,7 +140,7 @@ std::vector<SweepResult> Sweeper::follow(std::size_t sweeps) {
   std::vector<SweepResult> each(sweeps);
   for (const auto& records : own)
     for (std::size_t k = 0; k < sweeps; ++k) {
-      merge(each[k].detected, detected(records[k]));
+      merge(each[k].detected, detected(records[k], rule_.by_sum()));
       each[k].extremes.merge(records[k].all_extremes());
     }
   return each;

@@ -38,7 +38,8 @@ void EnginePort::show(bool was_running) {
     wave_->ran(device_.engine(), (device_.peek(HM_REG_STATUS) & HM_STATUS_ABORTED) != 0);
   wave_->irq(device_.irq(), device_.held());
   if (!was_running && is_running)
-    wave_->run(device_.engine(), device_.threshold(), device_.max_sweeps(), device_.held(), stop_);
+    wave_->run(device_.engine(), {device_.threshold(), device_.max_sweeps(), device_.stop_rule()},
+               device_.held(), stop_);
 }
 
 void EnginePort::begin_step(std::uint64_t step) {

@@ -40,7 +40,7 @@ TEST(Descriptions, SvdTellsTheTable) {
   ASSERT_TRUE(svd.load_string(file_text("svd").c_str()));
   const pugi::xml_node device = svd.child("device");
   EXPECT_STREQ(device.attribute("schemaVersion").value(), "1.3");
-  EXPECT_EQ(text_of(device, "version"), "2.0");
+  EXPECT_EQ(text_of(device, "version"), "2.1");
   EXPECT_EQ(text_of(device, "width"), "32");
   std::vector<Told> found;
   const pugi::xml_node peripheral = device.child("peripherals").child("peripheral");
@@ -83,7 +83,7 @@ TEST(Descriptions, IpXactTellsTheTable) {
   const pugi::xml_node component = xml.child("ipxact:component");
   EXPECT_STREQ(component.attribute("xmlns:ipxact").value(),
                "http://www.accellera.org/XMLSchema/IPXACT/1685-2014");
-  EXPECT_EQ(text_of(component, "ipxact:version"), "2.0");
+  EXPECT_EQ(text_of(component, "ipxact:version"), "2.1");
   expect_order(component, {"vendor", "library", "name", "version", "memoryMaps"});
   const pugi::xml_node block =
       component.child("ipxact:memoryMaps").child("ipxact:memoryMap").child("ipxact:addressBlock");

@@ -21,6 +21,7 @@ template <typename Array> void load_codes(Array& array, const ArrayJob& job) {
   array.write_weights(0, as_words(job.weight), job.weight.size());
   array.write_biases(0, as_words(job.bias), job.bias.size());
   array.write_outputs(0, as_words(job.start), job.start.size());
+  array.write_momentum(0, as_words(job.momentum), job.momentum.size());
 }
 
 inline void expect_sequencer(const engine::ClockStepped& e, const systemc::Sequencer& s) {
@@ -43,6 +44,9 @@ inline void expect_registers(const engine::ClockedEngine& e, const systemc::Neur
     ASSERT_EQ(e.state(k), n.output.state_raw());
     ASSERT_EQ(e.link(k), cells.link_raw(k));
     ASSERT_EQ(e.reciprocal(k), n.output.reciprocal_raw());
+    if (e.has_momentum()) {
+      ASSERT_EQ(e.extrapolated(k), n.output.extrapolated_raw());
+    }
   }
 }
 
@@ -76,7 +80,7 @@ inline void expect_registers(const engine::ClockedFold& e, const systemc::Neuron
 template <typename Array> std::uint64_t expect_run_clock_by_clock(Array& e, Dut& dut, const ArrayJob& job) {
   dut.write(HM_REG_IRQ_STATUS, ~0u);
   dut.start(job.threshold, job.max_sweeps);
-  e.start(job.threshold, job.max_sweeps);
+  e.start(job.threshold, job.max_sweeps, job.rule);
   std::uint64_t clock = 0;
   for (; !testing::Test::HasFatalFailure(); ++clock) {
     SCOPED_TRACE("after clock " + std::to_string(clock));
@@ -108,8 +112,8 @@ void expect_end(const Array& e, const ArrayJob& job, const std::vector<std::int3
   load_codes(strides, job);
   fast.write_outputs(0, as_words(start), start.size());
   strides.write_outputs(0, as_words(start), start.size());
-  const spec::Relaxation r = fast.run(job.threshold, job.max_sweeps);
-  strides.start(job.threshold, job.max_sweeps);
+  const spec::Relaxation r = fast.run(job.threshold, job.max_sweeps, job.rule);
+  strides.start(job.threshold, job.max_sweeps, job.rule);
   while (strides.busy()) strides.step(1 + dice.below(50));
   std::vector<std::int32_t> outputs(job.topology.neurons());
   fast.read_outputs(0, reinterpret_cast<std::uint32_t*>(outputs.data()), outputs.size());
@@ -117,6 +121,7 @@ void expect_end(const Array& e, const ArrayJob& job, const std::vector<std::int3
     EXPECT_EQ(c.sweeps, r.sweeps);
     EXPECT_EQ(c.converged, r.converged);
     EXPECT_EQ(c.largest_change, r.largest_change);
+    EXPECT_EQ(c.largest_sum, r.largest_sum);
     EXPECT_EQ(c.cycles, r.cycles);
   }
   for (std::size_t k = 0; k < outputs.size(); ++k) ASSERT_EQ(e.state(k), outputs[k]) << k;

@@ -60,6 +60,8 @@ spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, sp
     a.lanes = static_cast<int>(dice.between(1, 6));
     a.reciprocal_bits = static_cast<int>(dice.between(4, 32));
     a.bus_bits = 32 << dice.below(3);
+    a.relaxation = static_cast<int>(dice.between(1, 31));
+    a.momentum_entries = static_cast<int>(dice.between(1, 6));
     a.formats.weight = random_format(dice, 16, 1);
     a.formats.link = random_format(dice, 16, 2);
     a.formats.bias = random_format(dice, 32, 1);
@@ -69,10 +71,28 @@ spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, sp
   return a;
 }
 
+void make_slim(Dice& dice, spec::ArraySpec& a) {
+  for (spec::NumberFormat* f : {&a.formats.drive, &a.formats.state, &a.formats.link})
+    f->rounding = dice.one_in(2) ? spec::Rounding::rnd : spec::Rounding::trn;
+  a.reciprocal_bits = std::min(a.reciprocal_bits, 20);
+}
+
+void give_rule(Dice& dice, ArrayJob& job) {
+  job.rule.by_sum = dice.one_in(2);
+  job.rule.share = static_cast<int>(dice.below(6));
+  if (dice.one_in(2)) job.rule.floor = dice.bits() >> dice.between(30, 63);
+  job.momentum.clear();
+  const bool falls = dice.one_in(2); // else outputs seldom move against their sums
+  for (std::size_t k = 0; k < cosim::table_entries(job.array); ++k)
+    job.momentum.push_back(
+        static_cast<std::int32_t>(falls ? dice.code(spec::momentum_format) : dice.between(0, 32767)));
+}
+
 void load(Engine& e, const ArrayJob& job) {
   e.write_weights(0, words(job.weight), job.weight.size());
   e.write_biases(0, words(job.bias), job.bias.size());
   e.write_outputs(0, words(job.start), job.start.size());
+  e.write_momentum(0, words(job.momentum), job.momentum.size());
 }
 
 Codes outputs(const Engine& e) {
@@ -87,12 +107,13 @@ void expect_result(const Engine& e, const ArrayResult& expected) {
   EXPECT_EQ(r.sweeps, expected.sweeps);
   EXPECT_EQ(r.converged, expected.converged);
   EXPECT_EQ(r.largest_change, expected.largest_change);
+  EXPECT_EQ(r.largest_sum, expected.largest_sum);
   EXPECT_EQ(r.cycles, expected.cycles);
 }
 
 void expect_run(Engine& e, const ArrayJob& job, const ArrayResult& expected) {
   load(e, job);
-  e.run(job.threshold, job.max_sweeps);
+  e.run(job.threshold, job.max_sweeps, job.rule);
   expect_result(e, expected);
 }
 

@@ -22,6 +22,11 @@ std::string why_not_fast(const spec::ArraySpec& array, const spec::Topology& top
 spec::ArraySpec random_fast_array(Dice& dice, const spec::Topology& topology, spec::Normaliser normaliser,
                                   spec::Output output = spec::Output::modified);
 
+/// Roundings that only add, and few bits of the reciprocal: what slim kernels want.
+void make_slim(Dice& dice, spec::ArraySpec& array);
+/// A rule to stop by, and a table of m where the array has one.
+void give_rule(Dice& dice, ArrayJob& job);
+
 void load(engine::Engine& e, const ArrayJob& job);
 Codes outputs(const engine::Engine& e);
 

@@ -2,6 +2,7 @@
 // every clock; and at the end of a run the engine's.
 #include "rtl_model/spec/presets.h"
 #include "tests/engine/clocked_pair.h"
+#include "tests/engine/engine_bench.h"
 
 namespace hopmesh::tests {
 namespace {
@@ -70,8 +71,13 @@ TEST_P(ClockedKinds, EqualTheSystemcArrayOnAGrid) {
   ArrayJob job =
       lively_job(30001, array, one_by_one ? grid_topology(3, 4, true, n) : grid_topology(9, 11, true, n));
   job.max_sweeps = 2;
+  give_rule(dice, job);
   Dut dut("grid", job.array, job.topology);
   expect_alike(dut, job, dice, 1);
+}
+
+spec::Schedule schedule_for(spec::Output output) {
+  return output == spec::Output::momentum ? spec::Schedule::synchronous : spec::Schedule::coloured;
 }
 
 std::vector<Kind> kinds() {
@@ -88,6 +94,11 @@ std::vector<Kind> kinds() {
         for (auto output : {spec::Output::modified, spec::Output::binary})
           all.push_back({static_cast<spec::Schedule>(schedule), spec::Normaliser::reciprocal, lanes, true,
                          output, per_cell});
+  for (auto output : {spec::Output::projected, spec::Output::momentum})
+    for (auto normaliser : {spec::Normaliser::reciprocal, spec::Normaliser::divider})
+      for (int lanes : {1, 4})
+        for (bool exact : {true, false})
+          all.push_back({schedule_for(output), normaliser, lanes, exact, output, 1 + lanes / 2});
   return all;
 }
 
@@ -107,6 +118,14 @@ std::vector<Kind> folded_kinds() {
     for (auto stages : {spec::Stages::each, spec::Stages::one})
       all.push_back({spec::Schedule::coloured, spec::Normaliser::divider, 2, true, spec::Output::binary, 2,
                      elements, stages});
+  for (auto output : {spec::Output::projected, spec::Output::momentum})
+    for (auto normaliser : {spec::Normaliser::reciprocal, spec::Normaliser::divider})
+      for (int elements : {0, 1, 5, 300})
+        for (int registers = output == spec::Output::momentum ? 3 : 2; registers > 0; --registers)
+          for (auto stages : {spec::Stages::each, spec::Stages::one})
+            if (elements > 0 || stages == spec::Stages::each)
+              all.push_back({schedule_for(output), normaliser, registers, true, output, 3, elements, stages,
+                             registers});
   return all;
 }
 

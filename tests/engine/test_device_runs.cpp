@@ -1,5 +1,6 @@
 // Runs behind the engine's bus: the firmware's driver from doubles to doubles, a wait that is stopped and
 // gone on with, and what a run takes over at START.
+#include "rtl_model/spec/capabilities.h"
 #include "rtl_model/spec/presets.h"
 #include "sim/engine/device.h"
 #include "tests/engine/engine_bench.h"
@@ -44,6 +45,10 @@ struct Host {
     write(at(Window::WEIGHT), job.weight);
     write(at(Window::BIAS), job.bias);
     write(at(Window::OUTPUT), job.start);
+    if (!job.momentum.empty()) write(at(Window::MOMENTUM), job.momentum);
+    write(HM_REG_STOP, spec::stop_word(job.rule));
+    write(HM_REG_SUM_THRESHOLD_LO, static_cast<std::uint32_t>(job.rule.floor));
+    write(HM_REG_SUM_THRESHOLD_HI, static_cast<std::uint32_t>(job.rule.floor >> 32));
     write(HM_REG_THRESHOLD, job.threshold);
     write(HM_REG_MAX_SWEEPS, job.max_sweeps);
     write(HM_REG_IRQ_ENABLE, HM_IRQ_DONE);
@@ -55,6 +60,8 @@ struct Host {
     EXPECT_EQ(read(HM_REG_STATUS),
               static_cast<std::uint32_t>(HM_STATUS_DONE | (expected.converged ? HM_STATUS_CONVERGED : 0)));
     EXPECT_EQ(read(HM_REG_LARGEST_CHANGE), expected.largest_change);
+    EXPECT_EQ(read(HM_REG_LARGEST_SUM_LO), static_cast<std::uint32_t>(expected.largest_sum));
+    EXPECT_EQ(read(HM_REG_LARGEST_SUM_HI), static_cast<std::uint32_t>(expected.largest_sum >> 32));
     EXPECT_EQ(read(HM_REG_CYCLES_LO), static_cast<std::uint32_t>(expected.cycles));
     EXPECT_EQ(read(HM_REG_CYCLES_HI), static_cast<std::uint32_t>(expected.cycles >> 32));
   }
@@ -64,6 +71,26 @@ struct Host {
   Device device;
   const hm_bus& bus = device.bus();
 };
+
+/// Arrays of every output stage, with tables of m and rules to stop by.
+TEST(EngineRuns, TakeTableAndRuleFromTheBus) {
+  for (std::uint64_t seed = 610000; seed < 610200; ++seed) {
+    Dice dice(seed);
+    const spec::Topology topology = random_topology(dice, 30);
+    spec::ArraySpec array = random_array(dice, topology.most_taps());
+    array.packing = false;
+    ArrayJob job = random_codes(dice, stepping_array(dice, array, topology.most_taps()), topology);
+    give_rule(dice, job);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
+    Host host(job.array, job.topology);
+    host.load_and_start(job);
+    EXPECT_EQ(host.wait(), HM_OK);
+    host.expect(run_slow_array(job));
+    if (!job.momentum.empty()) {
+      EXPECT_EQ(host.read(host.at(Window::MOMENTUM), job.momentum.size()), job.momentum);
+    }
+  }
+}
 
 class EngineDriverBatch : public testing::TestWithParam<int> {};
 

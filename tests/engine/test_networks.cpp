@@ -51,7 +51,8 @@ struct Coverage {
   std::set<std::string> seen;
   void note(const ArrayJob& job) {
     const spec::ArraySpec& a = job.array;
-    const std::string normaliser(a.output == spec::Output::binary ? "binary" : name_of(a.normaliser)),
+    const std::string normaliser(a.output == spec::Output::modified ? name_of(a.normaliser)
+                                                                    : name_of(a.output)),
         per_cell = std::to_string(job.topology.neurons_per_cell);
     const auto note_modes = [&](const std::string& what, const spec::NumberFormat& f) {
       seen.insert(normaliser + " " + what + " " + std::string(name_of(f.rounding)));
@@ -63,35 +64,55 @@ struct Coverage {
     seen.insert(normaliser + " " + std::string(name_of(a.schedule)) + " " + per_cell);
   }
   static std::size_t most(spec::Normaliser n, spec::Output output) {
-    const std::size_t all = 3 * (7 + 4) + 3 * 3;
+    const std::size_t schedules = output == spec::Output::momentum    ? 1
+                                  : output == spec::Output::projected ? 2
+                                                                      : 3;
+    const std::size_t all = 3 * (7 + 4) + schedules * 3;
     if (output == spec::Output::binary) return all;
     // Behind a divider the drive does not round to even; behind prescaled rows it saturates.
     return n == spec::Normaliser::divider ? all - 1 : n == spec::Normaliser::prescaled ? all - 2 : all;
   }
 };
 
-class KernelNetworks : public testing::TestWithParam<int> {};
+class KernelNetworks : public testing::TestWithParam<std::pair<spec::Output, spec::Normaliser>> {};
 
 TEST_P(KernelNetworks, EqualTheBitSerialArrayInEveryMode) {
-  const auto normaliser = static_cast<spec::Normaliser>(GetParam() % 3);
-  const auto output = GetParam() < 3 ? spec::Output::modified : spec::Output::binary;
+  const auto [output, normaliser] = GetParam();
   Coverage coverage;
   for (std::uint64_t k = 0; k < 700 && !HasFailure(); ++k) {
-    const std::uint64_t seed = 100000 + 10000 * static_cast<std::uint64_t>(GetParam()) + k;
+    const std::uint64_t seed =
+        100000 + 10000 * (3 * static_cast<std::uint64_t>(output) + static_cast<std::uint64_t>(normaliser)) +
+        k;
     Dice dice(seed);
     const spec::Topology topology = random_topology(dice, 70);
-    const ArrayJob job = random_codes(dice, random_fast_array(dice, topology, normaliser, output), topology);
+    spec::ArraySpec array = random_fast_array(dice, topology, normaliser, output);
+    if (output == spec::Output::momentum && k % 2 == 0) make_slim(dice, array);
+    ArrayJob job = random_codes(dice, array, topology);
+    give_rule(dice, job);
     coverage.note(job);
     run_all(job, seed, ways_for(dice));
   }
   EXPECT_EQ(coverage.seen.size(), Coverage::most(normaliser, output));
 }
 
-/// The three normalisers of modified outputs; then binary ones, which have none.
-INSTANTIATE_TEST_SUITE_P(Normaliser, KernelNetworks, testing::Range(0, 4));
+using spec::Normaliser;
+using spec::Output;
 
-spec::Output output_of(std::uint64_t seed) {
-  return seed % 5 == 0 ? spec::Output::binary : spec::Output::modified;
+/// Binary outputs have no normaliser.
+INSTANTIATE_TEST_SUITE_P(Normaliser, KernelNetworks,
+                         testing::Values(std::pair{Output::modified, Normaliser::prescaled},
+                                         std::pair{Output::modified, Normaliser::reciprocal},
+                                         std::pair{Output::modified, Normaliser::divider},
+                                         std::pair{Output::binary, Normaliser::prescaled},
+                                         std::pair{Output::projected, Normaliser::reciprocal},
+                                         std::pair{Output::projected, Normaliser::divider},
+                                         std::pair{Output::momentum, Normaliser::reciprocal},
+                                         std::pair{Output::momentum, Normaliser::divider}));
+
+spec::Output output_of(std::uint64_t seed, Normaliser normaliser) {
+  if (seed % 5 > 2 && normaliser != Normaliser::prescaled)
+    return seed % 5 == 3 ? Output::projected : Output::momentum;
+  return seed % 5 == 0 ? Output::binary : Output::modified;
 }
 
 /// Two cells with forty neighbours each, a bridge between them, empty rows, and cells that nobody knows.
@@ -106,13 +127,14 @@ TEST(KernelStars, AndEmptyRowsAndLonelyCells) {
     Dice dice(seed);
     const spec::Topology topology = stars(static_cast<int>(1 + seed % 3));
     const auto normaliser = static_cast<spec::Normaliser>(seed / 2 % 3);
-    ArrayJob job =
-        random_codes(dice, random_fast_array(dice, topology, normaliser, output_of(seed)), topology);
+    ArrayJob job = random_codes(
+        dice, random_fast_array(dice, topology, normaliser, output_of(seed, normaliser)), topology);
+    give_rule(dice, job);
     const auto last = static_cast<std::size_t>(topology.neurons_per_cell) - 1;
-    for (std::size_t c = 0; c < topology.cells(); c += 3) { // no input at all: V must stay
+    for (std::size_t c = 0; c < topology.cells(); c += 3) { // no weight at all, and every other one no bias
       const std::size_t row = topology.row_offset(c, last);
       std::fill_n(job.weight.begin() + static_cast<std::ptrdiff_t>(row), topology.taps(c), 0);
-      job.bias[c * (last + 1) + last] = 0;
+      if (c % 2 == 0) job.bias[c * (last + 1) + last] = 0;
     }
     run_all(job, seed, ways_for(dice));
   }

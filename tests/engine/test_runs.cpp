@@ -115,7 +115,7 @@ TEST_P(EngineRuns, StoppedAfterEverySweepGoOnAsIfNothingWas) {
     SCOPED_TRACE(text(options));
     Engine e(job.array, job.topology, options);
     load(e, job);
-    e.begin_run(job.threshold, job.max_sweeps);
+    e.begin_run(job.threshold, job.max_sweeps, job.rule);
     std::size_t pieces = 1;
     for (; !e.advance(stop); ++pieces) {
       ASSERT_LT(e.result().sweeps, expected.sweeps);
@@ -143,7 +143,7 @@ TEST_P(EngineRuns, StoppedFromAnotherThreadGoOn) {
         std::this_thread::yield();
       }
     });
-    e.begin_run(job.threshold, job.max_sweeps);
+    e.begin_run(job.threshold, job.max_sweeps, job.rule);
     while (!e.advance(stop)) {
     }
     over = true;

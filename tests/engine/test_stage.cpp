@@ -37,12 +37,12 @@ class Bank {
   static std::int64_t most_rest(const spec::ArraySpec& a) { return 3 * a.formats.weight.max_raw(); }
   void prepare() {
     core_->prepare(0, layout_.blocks());
-    core_->begin_run();
+    core_->begin_run(false);
   }
   void put_state(std::size_t k, std::int64_t V) {
     core_->put_state(slot(k), k % 3, static_cast<std::int32_t>(V));
   }
-  void fire() { core_->fire(0, layout_.blocks(), record); }
+  void fire() { core_->fire(0, layout_.blocks(), {}, record); }
   std::int64_t state(std::size_t k) const { return core_->state(slot(k), k % 3); }
 
   engine::SweepRecord record;

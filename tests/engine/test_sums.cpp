@@ -13,8 +13,8 @@ using engine::KernelSet;
 using engine::Layout;
 using engine::NeuronPlan;
 
-// The kernels that `descent`-like arrays take ([3 neurons][multiply][plain]), behind counters: function
-// pointers carry no state, so that of the counters has to be static.
+// The kernels that `descent`-like arrays take ([3 neurons][multiply][not by sum][plain]), behind counters:
+// function pointers carry no state, so that of the counters has to be static.
 struct Counted {
   static inline const KernelSet* inner = nullptr;
   static inline int narrow = 0, wide = 0;
@@ -22,13 +22,13 @@ struct Counted {
     inner = &of;
     narrow = wide = 0;
     KernelSet counted = of;
-    counted.fire[2][0][1][0] = [](auto& a, auto first, auto last, auto& s) {
+    counted.fire[2][0][0][1][0] = [](auto& a, auto first, auto last, auto& s) {
       ++narrow;
-      inner->fire[2][0][1][0](a, first, last, s);
+      inner->fire[2][0][0][1][0](a, first, last, s);
     };
-    counted.fire[2][0][1][1] = [](auto& a, auto first, auto last, auto& s) {
+    counted.fire[2][0][0][1][1] = [](auto& a, auto first, auto last, auto& s) {
       ++wide;
-      inner->fire[2][0][1][1](a, first, last, s);
+      inner->fire[2][0][0][1][1](a, first, last, s);
     };
     return counted;
   }
@@ -56,9 +56,9 @@ std::int32_t sweep_once(const KernelSet& kernels, const ArrayJob& job) {
   core->put_weights(layout.slot_of_cell[0], 0, 0, job.weight.data(), 6);
   for (std::size_t k = 0; k < 6; ++k) core->put_state(layout.slot_of_cell[k / 3], k % 3, job.start[k]);
   core->prepare(0, layout.blocks());
-  core->begin_run();
+  core->begin_run(false);
   engine::SweepRecord record;
-  core->fire(0, layout.blocks(), record);
+  core->fire(0, layout.blocks(), {}, record);
   return core->state(layout.slot_of_cell[0], 0);
 }
 

@@ -55,6 +55,19 @@ INSTANTIATE_TEST_SUITE_P(
                     "--wave-window 200:700c",
                     "--set array.output=binary --set array.elements=3 --set array.lanes=9",
                     "--array prescaled --set array.pipeline=3 --wave-window 1:2"));
+INSTANTIATE_TEST_SUITE_P(
+    Stages, WaveOfLevels,
+    testing::Values(
+        "--set array.output=projected --set relax.stop=sum --wave-window 1:2",
+        "--set array.output=projected --set array.normaliser=divider --set array.pipeline=2 --set "
+        "array.elements=3 --wave-window 100:900c",
+        "--set array.output=momentum --set array.schedule=synchronous",
+        "--set array.output=momentum --set array.schedule=synchronous --set relax.stop=sum --set "
+        "relax.momentum=[1] --set array.pipeline=3 --wave-window 100:900c",
+        "--array descent --set array.output=momentum --set array.schedule=synchronous --set "
+        "array.elements=4 --set array.stages=one --set array.pipeline=2 --set relax.momentum=[0.9,1]",
+        "--set array.output=momentum --set array.schedule=synchronous --set array.elements=5 --set "
+        "relax.momentum=[1] --wave-window 30:700c --wave-cells 0,3-4"));
 INSTANTIATE_TEST_SUITE_P(Arrays, WaveOfLevels,
                          testing::Values("--array descent --wave-window 300:900c", "--array prescaled",
                                          "--array byte --wave-window 1:2",

@@ -2,6 +2,7 @@
 // and the counters likewise, for every schedule, normaliser, number of lanes and way of waking.
 #include "rtl_model/spec/presets.h"
 #include "tests/systemc/cycle_bench.h"
+#include "tests/systemc/stage_kinds.h"
 
 namespace hopmesh::tests {
 namespace {

@@ -1,6 +1,7 @@
 // Folded arrays to the cycle: every V absent at n - 1 and present at n, whatever shares the elements.
 #include "rtl_model/spec/presets.h"
 #include "tests/systemc/cycle_bench.h"
+#include "tests/systemc/stage_kinds.h"
 
 namespace hopmesh::tests {
 namespace {

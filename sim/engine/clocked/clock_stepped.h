@@ -60,6 +60,7 @@ class ClockStepped {
   const spec::Topology& topology() const { return topology_; }
 
   virtual std::int32_t state(std::size_t neuron) const = 0; ///< V after the last clock, raw
+  bool has_momentum() const { return plan_.output == spec::Output::momentum; }
   /// Of a momentum array: the number of m in its table.
   std::int64_t entry() const { return entry_; }
   /// All that waves show of the array's own registers, and of these cells. Valid as long as the array.
@@ -71,7 +72,6 @@ class ClockStepped {
   virtual void entered() {} ///< a segment has begun
   /// Momentum: Y takes the value of V, and neighbours see it.
   virtual void restart() {}
-  bool has_momentum() const { return plan_.output == spec::Output::momentum; }
   /// m of the sweep at hand.
   std::int32_t momentum() const { return rule_.momentum(); }
   bool by_sum() const { return rule_.by_sum(); }

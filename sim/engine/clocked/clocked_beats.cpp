@@ -144,7 +144,7 @@ void ClockedBeats::move(std::size_t first, std::size_t last) {
   const auto& base = at.extrapolated.empty() ? at.state : at.extrapolated;
   if (plan_.hold > 0)
     step_from(&at.drive[first], &base[first], &at.state[first], plan_.one_state, step_, last - first,
-         &at.change[first]);
+              &at.change[first]);
   else
     pull(&at.drive[first], &at.state[first], plan_.one_state, to_state_, last - first, &at.change[first]);
 }
@@ -153,8 +153,9 @@ void ClockedBeats::detect(const ClockedBank& bank, std::size_t p, bool by_sum, D
   const std::size_t row = bank.first_row + p * bank.width;
   const auto& base = at.extrapolated.empty() ? at.state : at.extrapolated;
   if (by_sum)
-    detected.largest_sum = std::max(detected.largest_sum, largest_moving(&at.sum[row], &base[row],
-                                                                         plan_.one_state, bank.width));
+    detected.largest_sum =
+        std::max(detected.largest_sum, largest_moving(&at.sum[row], &base[row], plan_.least_at_one,
+                                                      plan_.most_at_minus_one, bank.width));
   if (!at.extrapolated.empty()) detected.along += along(&at.sum[row], &at.change[row], bank.width);
 }
 
@@ -163,7 +164,8 @@ void ClockedBeats::publish(const ClockedBank& bank, std::size_t p, std::int32_t 
   const std::size_t row = bank.first_row + p * bank.width;
   if (at.extrapolated.empty()) {
     detected.largest_change =
-        std::max(detected.largest_change, add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]));
+        std::max(detected.largest_change,
+                 add_changes(&at.change[row], to_link_, bank.width, &at.state[row], &at.link[row]));
     return;
   }
   add_changes_ahead(&at.change[row], {plan_.one_state, momentum, step_, gained_, to_link_}, bank.width,

@@ -220,8 +220,9 @@ void ClockedFold::move(std::size_t at, std::size_t count, std::int64_t* changes)
 void ClockedFold::detect(std::size_t at, std::size_t count, const std::int64_t* changes) {
   const auto& base = has_momentum() ? extrapolated_ : state_;
   if (by_sum())
-    detected_.largest_sum = std::max(detected_.largest_sum,
-                                     largest_moving(&sum_[at], &base[at], plan_.one_state, count));
+    detected_.largest_sum =
+        std::max(detected_.largest_sum,
+                 largest_moving(&sum_[at], &base[at], plan_.least_at_one, plan_.most_at_minus_one, count));
   if (has_momentum()) detected_.along += along(&sum_[at], changes, count);
   for (std::size_t k = 0; k < count; ++k)
     detected_.largest_change = std::max(detected_.largest_change, std::abs(changes[k]));

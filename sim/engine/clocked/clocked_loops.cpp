@@ -76,8 +76,8 @@ HM_WIDEST std::int64_t add_changes(const std::int64_t* __restrict changes, const
 }
 
 HM_WIDEST void step_from(const std::int64_t* __restrict drives, const std::int32_t* base,
-                    const std::int32_t* states, std::int64_t one, const StepRounding& rounding,
-                    std::size_t rows, std::int64_t* __restrict changes) {
+                         const std::int32_t* states, std::int64_t one, const StepRounding& rounding,
+                         std::size_t rows, std::int64_t* __restrict changes) {
   const ShiftRounding down = rounding.down;
   const std::int64_t up = std::int64_t{1} << rounding.up;
   for (std::size_t r = 0; r < rows; ++r) {
@@ -107,11 +107,11 @@ HM_WIDEST std::int64_t along(const std::int64_t* __restrict sums, const std::int
 }
 
 HM_WIDEST std::int64_t largest_moving(const std::int64_t* __restrict sums,
-                                      const std::int32_t* __restrict base, std::int64_t one,
-                                      std::size_t rows) {
+                                      const std::int32_t* __restrict base, std::int64_t at_one,
+                                      std::int64_t at_minus_one, std::size_t rows) {
   std::int64_t largest = 0;
   for (std::size_t r = 0; r < rows; ++r) {
-    const bool held = sums[r] >= 0 ? base[r] == one : base[r] == -one;
+    const bool held = sums[r] >= 0 ? base[r] >= at_one : base[r] <= at_minus_one;
     const std::int64_t size = held ? 0 : sums[r] < 0 ? -sums[r] : sums[r];
     largest = size > largest ? size : largest;
   }

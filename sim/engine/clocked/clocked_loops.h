@@ -25,16 +25,17 @@ void begin_sums(const std::int32_t* biases, int up, std::size_t rows, std::int64
 void pull(const std::int64_t* drives, const std::int32_t* states, std::int64_t one,
           const ShiftRounding& rounding, std::size_t rows, std::int64_t* changes);
 /// changes <- V' - V, where V' is a step of u away from `base`, held within ±one: V itself, or Y.
-void step_from(const std::int64_t* drives, const std::int32_t* base, const std::int32_t* states, std::int64_t one,
-          const StepRounding& rounding, std::size_t rows, std::int64_t* changes);
+void step_from(const std::int64_t* drives, const std::int32_t* base, const std::int32_t* states,
+               std::int64_t one, const StepRounding& rounding, std::size_t rows, std::int64_t* changes);
 /// V <- V + Delta V; Y <- V + m Delta V, held within ±one, and the links of that.
 void add_changes_ahead(const std::int64_t* changes, const Momentum& stage, std::size_t rows,
                        std::int32_t* states, std::int32_t* ahead, std::int32_t* links);
 /// The sum of sign(s) Delta V.
 std::int64_t along(const std::int64_t* sums, const std::int64_t* changes, std::size_t rows);
-/// The largest |s| of rows that may still move: `base`, from where they move, is not held at a bound by s.
-std::int64_t largest_moving(const std::int64_t* sums, const std::int32_t* base, std::int64_t one,
-                            std::size_t rows);
+/// The largest |s| of rows that may still move: links do not show `base`, from where they move, at the bound
+/// that s pushes to. `at_one`, `at_minus_one`: from there on they do.
+std::int64_t largest_moving(const std::int64_t* sums, const std::int32_t* base, std::int64_t at_one,
+                            std::int64_t at_minus_one, std::size_t rows);
 /// links <- as neighbours see these states.
 void show(const std::int32_t* states, const ShiftRounding& to_link, std::size_t rows, std::int32_t* links);
 /// V <- V + Delta V, and its links; returns the largest |Delta V|.

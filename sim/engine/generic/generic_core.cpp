@@ -128,16 +128,16 @@ class GenericCore : public SweepCore {
   const ShiftRounding to_state_, to_link_, gained_;
   const StepRounding step_;
   ShiftRounding to_sum_, to_bias_;
-  bool narrow_sums_ = false, narrow_bias_ = false; ///< a rounding accumulator stays within 63 bits
-  std::vector<std::size_t> first_weight_;          ///< of a block
-  AlignedVector<std::int32_t> weight_;             ///< [block][p][tap][lane]
-  AlignedVector<std::int32_t> bias_, state_;       ///< [block][p][lane]
-  AlignedVector<std::int32_t> ahead_;              ///< Y, of momentum: [block][p][lane]
+  bool narrow_sums_ = false, narrow_bias_ = false;  ///< a rounding accumulator stays within 63 bits
+  std::vector<std::size_t> first_weight_;           ///< of a block
+  AlignedVector<std::int32_t> weight_;              ///< [block][p][tap][lane]
+  AlignedVector<std::int32_t> bias_, state_;        ///< [block][p][lane]
+  AlignedVector<std::int32_t> ahead_;               ///< Y, of momentum: [block][p][lane]
   std::array<AlignedVector<std::int32_t>, 2> link_; ///< [p][slot]; the second of synchronous arrays
-  std::uint32_t turn_ = 0;                         ///< sweeps up to now
+  std::uint32_t turn_ = 0;                          ///< sweeps up to now
   bool by_sum_ = false;
-  AlignedVector<std::int64_t> norm_, reciprocal_;  ///< [block][p][lane]
-  std::vector<int> places_;                        ///< Inverse::places of each row
+  AlignedVector<std::int64_t> norm_, reciprocal_; ///< [block][p][lane]
+  std::vector<int> places_;                       ///< Inverse::places of each row
   std::array<AlignedVector<std::int32_t>, 3> kept_;
 };
 
@@ -192,7 +192,8 @@ void GenericCore::fire_rows(std::size_t b, std::size_t p, const SweepOrder& orde
   std::int32_t* shown = link(order.ahead + 1) + p * layout_.slots() + b * L;
   if (by_sum_) {
     const std::int32_t* base = ahead_.empty() ? &state_[first] : &ahead_[first];
-    record.largest_moving = std::max(record.largest_moving, largest_moving_sum(sum, base, plan_.one_state));
+    record.largest_moving = std::max(
+        record.largest_moving, largest_moving_sum(sum, base, plan_.least_at_one, plan_.most_at_minus_one));
   }
   move(first, sum, u, order.momentum, shown, record);
   if (!synchronous()) std::copy_n(shown, L, in + p * L);
@@ -204,8 +205,8 @@ void GenericCore::move(std::size_t first, const std::int64_t* sum, const std::in
   if (plan_.output == spec::Output::projected) {
     largest = step_lanes(u, plan_.one_state, step_, to_link_, &state_[first], link);
   } else if (plan_.output == spec::Output::momentum) {
-    const Moved moved =
-        momentum_lanes(u, sum, {plan_.one_state, m, step_, gained_, to_link_}, &state_[first], &ahead_[first], link);
+    const Moved moved = momentum_lanes(u, sum, {plan_.one_state, m, step_, gained_, to_link_}, &state_[first],
+                                       &ahead_[first], link);
     record.along += moved.along;
     largest = moved.largest;
   } else {

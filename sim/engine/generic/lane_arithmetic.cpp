@@ -204,11 +204,11 @@ HM_WIDEST void limit_held_lanes(std::int64_t* __restrict x, const std::int64_t* 
 }
 
 HM_WIDEST std::int64_t largest_moving_sum(const std::int64_t* sum, const std::int32_t* base,
-                                          std::int64_t one) {
+                                          std::int64_t at_one, std::int64_t at_minus_one) {
   std::int64_t largest = 0;
   for (std::size_t l = 0; l < lane_count; ++l) {
-    const std::int64_t up = base[l] == one || sum[l] < 0 ? 0 : sum[l];
-    const std::int64_t down = base[l] == -one || sum[l] > 0 ? 0 : -sum[l];
+    const std::int64_t up = base[l] >= at_one || sum[l] < 0 ? 0 : sum[l];
+    const std::int64_t down = base[l] <= at_minus_one || sum[l] > 0 ? 0 : -sum[l];
     largest = up > largest ? up : largest;
     largest = down > largest ? down : largest;
   }

@@ -47,8 +47,10 @@ void hold_lanes(std::int64_t* x, const std::int64_t* norm, std::int64_t factor, 
 /// x clamped, and at its bound where `beyond` is not 0.
 void limit_held_lanes(std::int64_t* x, const std::int64_t* beyond, std::int64_t bound);
 void widen_swing(const std::int64_t* x, Swing& swing);
-/// The largest |s| of rows that may still move: `base`, from where they move, is not held at a bound by s.
-std::int64_t largest_moving_sum(const std::int64_t* sum, const std::int32_t* base, std::int64_t one);
+/// The largest |s| of rows that may still move: links do not show `base`, from where they move, at the bound
+/// that s pushes to. `at_one`, `at_minus_one`: from there on they do.
+std::int64_t largest_moving_sum(const std::int64_t* sum, const std::int32_t* base, std::int64_t at_one,
+                                std::int64_t at_minus_one);
 /// V <- V + Delta V for drives u; links from it; returns the largest |Delta V|.
 std::int64_t output_lanes(const std::int64_t* u, std::int64_t one, const ShiftRounding& to_state,
                           const ShiftRounding& to_link, std::int32_t* state, std::int32_t* link);

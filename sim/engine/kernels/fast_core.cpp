@@ -24,7 +24,7 @@ class FastCore : public SweepCore {
   FastCore(const NeuronPlan& plan, const Layout& layout, const KernelSet& kernels)
       : plan_(plan), layout_(layout), kernels_(kernels),
         per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), at_(layout, per_cell_),
-        fits_slim_(fits_slim(plan)) {
+        fits_slim_(kernels.slim && fits_slim(plan)) {
     const std::size_t neurons = layout.slots() * per_cell_, slots = layout.slots() + 2 * L;
     weight_.assign(at_.first_weight.back(), 0);
     bias_.assign(neurons, 0);
@@ -104,7 +104,7 @@ class FastCore : public SweepCore {
   const bool fits_slim_;
   bool slim_ = false; ///< rows, as they are written, may be for slim kernels
   std::atomic<std::uint64_t> largest_row_{0}, largest_sum_{0}; ///< sum |w|; and s as large as it can be
-  std::atomic<bool> lonely_{false}; ///< some s has no divisor
+  std::atomic<bool> lonely_{false};                            ///< some s has no divisor
   AlignedVector<std::uint32_t> weight_;
   AlignedVector<std::int32_t> bias_, state_, ahead_, kept_state_, kept_ahead_;
   AlignedVector<std::int64_t> multiplier_, most_sum_;
@@ -131,6 +131,8 @@ void FastCore::set_arguments() {
   args_.state_fraction = f.state.fraction_bits();
   args_.one_drive = plan_.one_drive;
   args_.one_state = plan_.one_state;
+  args_.at_one = plan_.least_at_one;
+  args_.at_minus_one = plan_.most_at_minus_one;
   const Normalise how = normalise_of(plan_);
   if (how == Normalise::scale) args_.drive = shift_rounding(plan_.scaled_down, f.drive.rounding);
   if (how == Normalise::multiply || how == Normalise::step_multiply || how == Normalise::ahead_multiply)
@@ -192,7 +194,8 @@ std::uint64_t FastCore::divisor(std::size_t block, std::size_t row, std::uint32_
   if (plan_.output == spec::Output::projected)
     return static_cast<std::uint64_t>(std::abs(weight(block * L + row % L, p, p))) << plan_.weight_up;
   const std::int64_t bias = plan_.hold > 0 ? 0 : bias_[block * per_cell_ * L + row];
-  return (std::uint64_t{sum} << plan_.weight_up) + (static_cast<std::uint64_t>(std::abs(bias)) << plan_.bias_up);
+  return (std::uint64_t{sum} << plan_.weight_up) +
+         (static_cast<std::uint64_t>(std::abs(bias)) << plan_.bias_up);
 }
 
 void FastCore::prepare(std::size_t first, std::size_t last) {
@@ -230,7 +233,8 @@ void FastCore::begin_run(bool by_sum) {
     prepare(0, layout_.blocks());
   }
   const bool wide = largest_row_ * static_cast<std::uint64_t>(plan_.one_link) > INT32_MAX;
-  const bool plain = args_.drive.plain() && args_.state_rounding.plain() && args_.link.plain() && args_.step.plain();
+  const bool plain =
+      args_.drive.plain() && args_.state_rounding.plain() && args_.link.plain() && args_.step.plain();
   const auto& kernels = kernels_.fire[per_cell_ - 1][static_cast<std::size_t>(how)][by_sum];
   fire_ = is_ahead(how) ? kernels[slim_][!slim_] : kernels[plain][wide];
   largest_row_ = largest_sum_ = 0;

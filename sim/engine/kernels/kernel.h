@@ -26,12 +26,14 @@ struct KernelDivision {
   int ratio_up = 0;
 };
 
-/// Of slim kernels, which know only rounding down and to the nearest: u = floor((s scale + to_dividend) inverse
+/// Of slim kernels, which know only rounding down and to the nearest: u = floor((s scale + to_dividend)
+/// inverse
 /// + to_quotient), and only the last where they multiply.
 struct KernelQuotient {
   double scale = 1, to_dividend = 0, to_quotient = 0;
 };
-inline constexpr int slim_places = 15; ///< behind the point of m; Delta V is multiplied in pieces of so many bits
+inline constexpr int slim_places =
+    15; ///< behind the point of m; Delta V is multiplied in pieces of so many bits
 inline constexpr std::size_t slim_blocks = 4096; ///< after so many a slim kernel's sums might leave 32 bits
 
 struct KernelArgs {
@@ -59,6 +61,7 @@ struct KernelArgs {
   bool synchronous;
   int bias_up, state_fraction;
   std::int64_t one_drive, one_state;
+  std::int64_t at_one, at_minus_one; ///< codes of the state from which on a link shows 1, and -1
   ShiftRounding drive, state_rounding, link;
   KernelDivision division;
   // Projected and momentum: u to a step of the state, moved up and then rounded; m times Delta V; the limit
@@ -100,6 +103,7 @@ constexpr bool divides(Normalise how) {
 /// All kernels of one instruction set: [neurons a cell - 1][Normalise][by sum][plain rounding][wide sums].
 struct KernelSet {
   const char* name;
+  bool slim; ///< are there slim kernels?
   FireKernel fire[3][8][2][2][2];
   RowKernel rows[3];
 };

@@ -23,16 +23,17 @@ template <typename Isa> struct KernelAhead : Kernel<Isa> {
     Isa::store_links(a.next_zz + at.slot, Isa::halves(z, Isa::up_16(z)));
   }
 
-  template <int P, Normalise how, bool plain, bool wide, bool by_sum>
+  /// Whatever its formats and rows.
+  template <int P, Normalise how>
   static void fire(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
     typename Kernel<Isa>::Stage c(a, extremes);
     typename KernelHeld<Isa>::Held h(a, extremes);
     for (std::size_t block = first; block < last; ++block)
-      fire_block<P, wide>(a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
-        return KernelHeld<Isa>::template publish_ahead<how, plain, wide, by_sum>(
-            sum, (P * block + p) * 16, c, h);
-      });
-    c.template store_extremes<by_sum>(extremes);
+      fire_block<P, true>(
+          a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
+            return KernelHeld<Isa>::template publish_ahead<how>(sum, (P * block + p) * 16, c, h);
+          });
+    c.template store_extremes<true>(extremes);
     Isa::store(extremes.along, h.along);
   }
 
@@ -42,12 +43,20 @@ template <typename Isa> struct KernelAhead : Kernel<Isa> {
       const std::size_t end = last - first < slim_blocks ? last : first + slim_blocks;
       typename KernelSlim<Isa>::Slim c(a);
       for (std::size_t block = first; block < end; ++block)
-        fire_block<P, false>(a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
-          return KernelSlim<Isa>::template publish_slim<how, by_sum>(sum, (P * block + p) * 16, c);
-        });
+        fire_block<P, false>(
+            a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
+              return KernelSlim<Isa>::template publish_slim<how, by_sum>(sum, (P * block + p) * 16, c);
+            });
       c.store_extremes(extremes);
       first = end;
     }
+  }
+
+  template <int P, Normalise how, bool by_sum> static constexpr FireKernel slim() {
+    if constexpr (Isa::few)
+      return fire<P, how>;
+    else
+      return fire_slim<P, how, by_sum>;
   }
 };
 
@@ -59,39 +68,46 @@ template <typename Isa> struct KernelAhead : Kernel<Isa> {
         {Kernel<Isa>::template fire<P, how, true, false, false>,                                             \
          Kernel<Isa>::template fire<P, how, true, true, false>},                                             \
   }
-// The rest: a kernel where both hold, and one for all else.
+// With sums that are looked at: one for all.
+#define HM_ONE(P, how)                                                                                       \
+  HM_TWO((Kernel<Isa>::template fire<P, how, false, true, true>),                                            \
+         (Kernel<Isa>::template fire<P, how, false, true, true>))
+// The rest: a kernel where 32 bits hold what counts and rounding only adds, and one for all else.
 #define HM_TWO(any, most)                                                                                    \
   {                                                                                                          \
-    {any, any}, { most, any }                                                                                \
+    {any, any}, {                                                                                            \
+      most, any                                                                                              \
+    }                                                                                                        \
   }
-#define HM_BOTH(P, how, by_sum)                                                                              \
-  HM_TWO((Kernel<Isa>::template fire<P, how, false, true, by_sum>),                                          \
-         (Kernel<Isa>::template fire<P, how, true, false, by_sum>))
+#define HM_STEP(P, how)                                                                                      \
+  HM_TWO((Kernel<Isa>::template fire<P, how, false, true, true>),                                            \
+         (Kernel<Isa>::template fire<P, how, !Isa::few, Isa::few, true>))
 #define HM_AHEAD(P, how, by_sum)                                                                             \
-  HM_TWO((KernelAhead<Isa>::template fire<P, how, false, true, by_sum>),                                     \
-         (KernelAhead<Isa>::template fire_slim<P, how, by_sum>))
+  HM_TWO((KernelAhead<Isa>::template fire<P, how>), (KernelAhead<Isa>::template slim<P, how, by_sum>()))
 #define HM_CELLS(P)                                                                                          \
   {                                                                                                          \
-    {HM_FOUR(P, Normalise::multiply), HM_BOTH(P, Normalise::multiply, true)},                                \
-        {HM_FOUR(P, Normalise::scale), HM_BOTH(P, Normalise::scale, true)},                                  \
-        {HM_FOUR(P, Normalise::divide), HM_BOTH(P, Normalise::divide, true)},                                \
-        {HM_FOUR(P, Normalise::sign), HM_BOTH(P, Normalise::sign, true)},                                    \
-        {HM_BOTH(P, Normalise::step_multiply, false), HM_BOTH(P, Normalise::step_multiply, true)},           \
-        {HM_BOTH(P, Normalise::step_divide, false), HM_BOTH(P, Normalise::step_divide, true)},               \
+    {HM_FOUR(P, Normalise::multiply), HM_ONE(P, Normalise::multiply)},                                       \
+        {HM_FOUR(P, Normalise::scale), HM_ONE(P, Normalise::scale)},                                         \
+        {HM_FOUR(P, Normalise::divide), HM_ONE(P, Normalise::divide)},                                       \
+        {HM_FOUR(P, Normalise::sign), HM_ONE(P, Normalise::sign)},                                           \
+        {HM_STEP(P, Normalise::step_multiply), HM_STEP(P, Normalise::step_multiply)},                        \
+        {HM_STEP(P, Normalise::step_divide), HM_STEP(P, Normalise::step_divide)},                            \
         {HM_AHEAD(P, Normalise::ahead_multiply, false), HM_AHEAD(P, Normalise::ahead_multiply, true)},       \
         {HM_AHEAD(P, Normalise::ahead_divide, false), HM_AHEAD(P, Normalise::ahead_divide, true)},           \
   }
 
 template <typename Isa> constexpr KernelSet kernels_of(const char* name) {
   return {name,
+          !Isa::few,
           {HM_CELLS(1), HM_CELLS(2), HM_CELLS(3)},
           {Kernel<Isa>::template rows<1>, Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
 }
 
 #undef HM_CELLS
 #undef HM_AHEAD
-#undef HM_BOTH
+#undef HM_STEP
 #undef HM_TWO
+#undef HM_ONE
 #undef HM_FOUR
 
 } // namespace

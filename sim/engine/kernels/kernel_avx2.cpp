@@ -17,6 +17,7 @@ struct Avx2 {
     __m256d half[2];
   };
   using Count = __m128i;
+  static constexpr bool few = false;
 
   template <typename Op> static Longs both(Op op) { return {{op(0), op(1)}}; }
   template <typename Op> static Words both_words(Op op) { return {{op(0), op(1)}}; }
@@ -159,7 +160,9 @@ struct Avx2 {
   static __m256d doubles_of(__m256i words, int which) {
     return _mm256_cvtepi32_pd(which ? _mm256_extracti128_si256(words, 1) : _mm256_castsi256_si128(words));
   }
-  static Doubles low_doubles(const Words& a) { return {{doubles_of(a.half[0], 0), doubles_of(a.half[0], 1)}}; }
+  static Doubles low_doubles(const Words& a) {
+    return {{doubles_of(a.half[0], 0), doubles_of(a.half[0], 1)}};
+  }
   static Doubles high_doubles(const Words& a) {
     return {{doubles_of(a.half[1], 0), doubles_of(a.half[1], 1)}};
   }

@@ -11,6 +11,7 @@ struct Avx512 {
   using Longs = __m512i;
   using Doubles = __m512d;
   using Count = __m128i;
+  static constexpr bool few = false;
 
   static Count count(int places) { return _mm_cvtsi32_si128(places); }
   static Longs all(std::int64_t x) { return _mm512_set1_epi64(x); }

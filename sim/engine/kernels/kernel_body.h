@@ -34,7 +34,7 @@ template <typename Isa> struct Kernel : KernelSlim<Isa> {
   [[gnu::always_inline]] static Words publish(const Sum<Isa, wide>& sum, std::size_t at,
                                               Stages<is_step(how)>& c) {
     if constexpr (is_step(how))
-      return KernelHeld<Isa>::template publish_step<how, plain, wide, by_sum>(sum, at, c.c, c.held);
+      return KernelHeld<Isa>::template publish_step<how, plain, wide>(sum, at, c.c, c.held);
     else
       return KernelStage<Isa>::template publish<how, plain, wide, by_sum>(sum, at, c.c);
   }
@@ -117,8 +117,7 @@ template <typename Isa> struct Kernel : KernelSlim<Isa> {
       }
       with_x.live = summed.live;
       if (summed.live) {
-        with_x.xy =
-            Isa::halves(publish<how, plain, wide, by_sum>(summed.x, P * summed.slot, c), summed.xy);
+        with_x.xy = Isa::halves(publish<how, plain, wide, by_sum>(summed.x, P * summed.slot, c), summed.xy);
         with_x.slot = summed.slot;
         with_x.w = summed.w;
         with_x.y = summed.y;

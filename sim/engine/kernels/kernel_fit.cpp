@@ -88,7 +88,8 @@ bool fits_slim(const NeuronPlan& plan) {
   };
   const spec::Formats& f = plan.formats;
   if (plan.output != spec::Output::momentum || f.state.fraction_bits() > 28) return false;
-  if (!adds_only(f.drive.rounding) || !adds_only(f.state.rounding) || !adds_only(f.link.rounding)) return false;
+  if (!adds_only(f.drive.rounding) || !adds_only(f.state.rounding) || !adds_only(f.link.rounding))
+    return false;
   if (plan.normaliser == spec::Normaliser::reciprocal)
     return plan.reciprocal_bits <= 20 && plan.multiplier_places <= 52;
   return 31 + plan.ratio_up <= 50;

@@ -26,8 +26,8 @@ template <typename Isa> struct KernelHeld : KernelStage<Isa> {
         : step(a.step), gained(a.gained), none(Isa::all(0)), one(Isa::all(a.one_state)),
           minus_one(Isa::all(-a.one_state)), most_drive(Isa::all(a.most_drive)),
           least_drive(Isa::all(-a.most_drive)), m(Isa::all(a.momentum)), along(Isa::load(s.along)),
-          step_up(Isa::count(a.step_up)), beyond_up(Isa::count(a.beyond_up)),
-          gain(Isa::all_doubles(a.gain)) {}
+          step_up(Isa::count(a.step_up)), beyond_up(Isa::count(a.beyond_up)), gain(Isa::all_doubles(a.gain)) {
+    }
   };
 
   /// As `divided`, with a gain of s.
@@ -63,47 +63,45 @@ template <typename Isa> struct KernelHeld : KernelStage<Isa> {
   }
 
   /// Projected: sixteen neurons, and their links.
-  template <Normalise how, bool plain, bool wide, bool by_sum>
+  template <Normalise how, bool plain, bool wide>
   [[gnu::always_inline]] static Words publish_step(const Sum<Isa, wide>& sum, std::size_t at, Stage& c,
                                                    const Held& h) {
     const KernelArgs& a = c.args;
     const Longs s0 = KernelStage<Isa>::low_sum(sum, at, c), s1 = KernelStage<Isa>::high_sum(sum, at, c);
     const Longs V0 = Isa::load_widened(a.state + at), V1 = Isa::load_widened(a.state + at + 8);
-    if constexpr (by_sum) KernelStage<Isa>::note_moving(s0, V0, c), KernelStage<Isa>::note_moving(s1, V1, c);
+    KernelStage<Isa>::note_moving(s0, V0, c), KernelStage<Isa>::note_moving(s1, V1, c);
     const Words V = Isa::load_words(a.state + at);
-    const Words now = Isa::narrow(stepped<how, plain>(s0, V0, at, c, h),
-                                  stepped<how, plain>(s1, V1, at + 8, c, h));
+    const Words now =
+        Isa::narrow(stepped<how, plain>(s0, V0, at, c, h), stepped<how, plain>(s1, V1, at + 8, c, h));
     c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(Isa::sub_words(now, V)));
     Isa::store_words(a.state + at, now);
     return KernelStage<Isa>::template link_of<plain>(now, c);
   }
 
   /// Y' of eight neurons, from V and V'.
-  template <bool plain>
   [[gnu::always_inline]] static Longs ahead_of(Longs s, Longs V, Longs now, Held& h) {
     const Longs change = Isa::sub(now, V), sign = within(s, Isa::all(-1), Isa::all(1));
     h.along = Isa::add(h.along, Isa::multiply_low(sign, change));
-    const Longs gained =
-        KernelStage<Isa>::template rounded<plain>(Isa::multiply_low(change, h.m), h.gained);
+    const Longs gained = KernelStage<Isa>::template rounded<false>(Isa::multiply_low(change, h.m), h.gained);
     return within(Isa::add(now, gained), h.minus_one, h.one);
   }
 
   /// Momentum: sixteen neurons, and their links.
-  template <Normalise how, bool plain, bool wide, bool by_sum>
-  [[gnu::always_inline]] static Words publish_ahead(const Sum<Isa, wide>& sum, std::size_t at, Stage& c,
+  template <Normalise how>
+  [[gnu::always_inline]] static Words publish_ahead(const Sum<Isa, true>& sum, std::size_t at, Stage& c,
                                                     Held& h) {
     const KernelArgs& a = c.args;
     const Longs s0 = KernelStage<Isa>::low_sum(sum, at, c), s1 = KernelStage<Isa>::high_sum(sum, at, c);
     const Longs Y0 = Isa::load_widened(a.ahead + at), Y1 = Isa::load_widened(a.ahead + at + 8);
-    if constexpr (by_sum) KernelStage<Isa>::note_moving(s0, Y0, c), KernelStage<Isa>::note_moving(s1, Y1, c);
-    const Longs now0 = stepped<how, plain>(s0, Y0, at, c, h), now1 = stepped<how, plain>(s1, Y1, at + 8, c, h);
+    KernelStage<Isa>::note_moving(s0, Y0, c), KernelStage<Isa>::note_moving(s1, Y1, c);
+    const Longs now0 = stepped<how, false>(s0, Y0, at, c, h),
+                now1 = stepped<how, false>(s1, Y1, at + 8, c, h);
     const Words V = Isa::load_words(a.state + at), now = Isa::narrow(now0, now1);
     c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(Isa::sub_words(now, V)));
-    const Words ahead = Isa::narrow(ahead_of<plain>(s0, Isa::low(V), now0, h),
-                                    ahead_of<plain>(s1, Isa::high(V), now1, h));
+    const Words ahead = Isa::narrow(ahead_of(s0, Isa::low(V), now0, h), ahead_of(s1, Isa::high(V), now1, h));
     Isa::store_words(a.state + at, now);
     Isa::store_words(a.ahead + at, ahead);
-    return KernelStage<Isa>::template link_of<plain>(ahead, c);
+    return KernelStage<Isa>::template link_of<false>(ahead, c);
   }
 };
 

@@ -16,6 +16,7 @@ struct Portable {
     double at[8];
   };
   using Count = int;
+  static constexpr bool few = true; ///< no kernels for what seldom comes here: they take long to compile
 
   template <typename Op> static Longs each(Op op) {
     Longs r;

@@ -16,7 +16,7 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
   /// Constants of the run, and the extremes so far.
   struct Slim {
     const KernelArgs& args;
-    Words none, step_add, gained_add, low_bits, m, link_add, one, minus_one;
+    Words none, step_add, gained_add, low_bits, m, link_add, one, minus_one, at_one, at_minus_one;
     Words largest, least_sum, largest_sum, least_drive, largest_drive, moving, along, along_high;
     Doubles scale, to_dividend, to_quotient, most_drive, fewest_drive;
     typename Isa::Count bias_up, step_up, step_down, link_places, gain_places;
@@ -25,16 +25,16 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
         : args(a), none(Isa::no_words()), step_add(Isa::all_words(a.step.add)),
           gained_add(Isa::all_words(a.gained.add)), low_bits(Isa::all_words((1 << slim_places) - 1)),
           m(Isa::all_words(a.momentum & 0xFFFF)), link_add(Isa::all_words(a.link.add)),
-          one(Isa::all_words(a.one_state)), minus_one(Isa::all_words(-a.one_state)), largest(none),
+          one(Isa::all_words(a.one_state)), minus_one(Isa::all_words(-a.one_state)),
+          at_one(Isa::all_words(a.at_one)), at_minus_one(Isa::all_words(a.at_minus_one)), largest(none),
           least_sum(none), largest_sum(none), least_drive(none), largest_drive(none), moving(none),
           along(none), along_high(none), scale(Isa::all_doubles(a.slim.scale)),
           to_dividend(Isa::all_doubles(a.slim.to_dividend)),
           to_quotient(Isa::all_doubles(a.slim.to_quotient)),
           most_drive(Isa::all_doubles(static_cast<double>(a.most_drive))),
-          fewest_drive(Isa::all_doubles(-static_cast<double>(a.most_drive))),
-          bias_up(Isa::count(a.bias_up)), step_up(Isa::count(a.step_up)),
-          step_down(Isa::count(a.step.places)), link_places(Isa::count(a.link.places)),
-          gain_places(Isa::count(slim_places)) {}
+          fewest_drive(Isa::all_doubles(-static_cast<double>(a.most_drive))), bias_up(Isa::count(a.bias_up)),
+          step_up(Isa::count(a.step_up)), step_down(Isa::count(a.step.places)),
+          link_places(Isa::count(a.link.places)), gain_places(Isa::count(slim_places)) {}
 
     // Sums that began at zero: at most slim_blocks blocks, so they fit.
     void store_extremes(LaneExtremes& s) const {
@@ -71,11 +71,11 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
     return Isa::add_pairs(behind, high, c.m);
   }
 
-  /// |s| of those that may still move: not at a bound that s pushes them to.
+  /// |s| of those that may still move (KernelStage::note_moving).
   [[gnu::always_inline]] static void note_moving(Words s, Words Y, Slim& c) {
-    const Words up = Isa::words_and(Isa::max_words(s, c.none), Isa::word_signs(Isa::sub_words(Y, c.one)));
+    const Words up = Isa::words_and(Isa::max_words(s, c.none), Isa::word_signs(Isa::sub_words(Y, c.at_one)));
     const Words down = Isa::words_and(Isa::max_words(Isa::sub_words(c.none, s), c.none),
-                                      Isa::word_signs(Isa::sub_words(c.minus_one, Y)));
+                                      Isa::word_signs(Isa::sub_words(c.at_minus_one, Y)));
     c.moving = Isa::max_words(c.moving, Isa::max_words(up, down));
   }
 
@@ -97,7 +97,8 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
     Isa::store_words(a.state + at, now);
     c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(change));
     const Words low = Isa::words_and(change, c.low_bits), high = Isa::shift_words_down(change, c.gain_places);
-    const Words sign = Isa::words_and(words_within(s, Isa::all_words(-1), Isa::all_words(1)), Isa::all_words(0xFFFF));
+    const Words sign =
+        Isa::words_and(words_within(s, Isa::all_words(-1), Isa::all_words(1)), Isa::all_words(0xFFFF));
     c.along = Isa::add_pairs(c.along, low, sign), c.along_high = Isa::add_pairs(c.along_high, high, sign);
     const Words ahead = words_within(Isa::add_words(now, gained(low, high, c)), c.minus_one, c.one);
     Isa::store_words(a.ahead + at, ahead);

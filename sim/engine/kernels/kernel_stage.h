@@ -34,7 +34,7 @@ template <typename Isa> struct KernelStage {
     const KernelArgs& args;
     Rounder drive, state;
     Words link_add, link_add_if_negative, link_add_if_odd, largest;
-    Longs one, minus_one, least_sum, largest_sum, least_drive, largest_drive, moving, bound, minus_bound;
+    Longs one, minus_one, least_sum, largest_sum, least_drive, largest_drive, moving, at_one, at_minus_one;
     typename Isa::Count link_places, bias_up, state_fraction, ratio_up;
     typename Isa::Doubles to_dividend, to_dividend_if_negative, to_quotient, to_quotient_if_negative;
 
@@ -45,9 +45,10 @@ template <typename Isa> struct KernelStage {
           one(Isa::all(a.one_drive)), minus_one(Isa::all(-a.one_drive)), least_sum(Isa::load(s.least_sum)),
           largest_sum(Isa::load(s.largest_sum)), least_drive(Isa::load(s.least_drive)),
           largest_drive(Isa::load(s.largest_drive)), moving(Isa::load(s.largest_moving)),
-          bound(Isa::all(a.one_state)), minus_bound(Isa::all(-a.one_state)), link_places(Isa::count(a.link.places)),
-          bias_up(Isa::count(a.bias_up)), state_fraction(Isa::count(a.state_fraction)),
-          ratio_up(Isa::count(a.division.ratio_up)), to_dividend(Isa::all_doubles(a.division.to_dividend)),
+          at_one(Isa::all(a.at_one)), at_minus_one(Isa::all(a.at_minus_one)),
+          link_places(Isa::count(a.link.places)), bias_up(Isa::count(a.bias_up)),
+          state_fraction(Isa::count(a.state_fraction)), ratio_up(Isa::count(a.division.ratio_up)),
+          to_dividend(Isa::all_doubles(a.division.to_dividend)),
           to_dividend_if_negative(Isa::all_doubles(a.division.to_dividend_if_negative)),
           to_quotient(Isa::all_doubles(a.division.to_quotient)),
           to_quotient_if_negative(Isa::all_doubles(a.division.to_quotient_if_negative)) {}
@@ -87,12 +88,13 @@ template <typename Isa> struct KernelStage {
     c.largest_drive = Isa::max(c.largest_drive, u);
   }
 
-  /// |s| of those that may still move: `base`, from where they move, is not at a bound that s pushes them to.
+  /// |s| of those that may still move: links do not show `base`, from where they move, at the bound that s
+  /// pushes to.
   [[gnu::always_inline]] static void note_moving(Longs s, Longs base, Stage& c) {
     const Longs none = Isa::all(0);
-    const Longs up = Isa::bits_and(Isa::max(s, none), Isa::signs(Isa::sub(base, c.bound)));
+    const Longs up = Isa::bits_and(Isa::max(s, none), Isa::signs(Isa::sub(base, c.at_one)));
     const Longs down =
-        Isa::bits_and(Isa::max(Isa::sub(none, s), none), Isa::signs(Isa::sub(c.minus_bound, base)));
+        Isa::bits_and(Isa::max(Isa::sub(none, s), none), Isa::signs(Isa::sub(c.at_minus_one, base)));
     c.moving = Isa::max(c.moving, Isa::max(up, down));
   }
 

@@ -65,6 +65,7 @@ void ClockedVcd::add_sequencer() {
   beat_ = add(signals::beat);
   busy_ = add(signals::busy);
   sweeps_ = add(signals::sweeps);
+  if (array_.has_momentum()) momentum_ = add(signals::momentum);
   file_.close_scope();
 }
 
@@ -89,8 +90,7 @@ void ClockedVcd::show_host(std::uint64_t halves) {
   show(always_);
   show(of_prepare_);
   for (const auto& watched : of_phase_) show(watched);
-  file_.set(busy_, array_.busy());
-  file_.set(sweeps_, array_.result().sweeps);
+  show_counters();
   if (!file_.begun()) file_.begin(time_);
 }
 
@@ -119,8 +119,13 @@ void ClockedVcd::edge(std::uint64_t halves, int segment, bool asleep) {
 void ClockedVcd::show_sequencer(bool asleep) {
   file_.set(segment_, asleep ? +spec::Segment::idle : array_.segment());
   file_.set(beat_, static_cast<std::int64_t>(array_.beat()));
+  show_counters();
+}
+
+void ClockedVcd::show_counters() {
   file_.set(busy_, array_.busy());
   file_.set(sweeps_, array_.result().sweeps);
+  if (array_.has_momentum()) file_.set(momentum_, array_.entry());
 }
 
 void ClockedVcd::show(const std::vector<Watched>& watched) {

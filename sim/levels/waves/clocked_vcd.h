@@ -35,6 +35,7 @@ class ClockedVcd {
   };
 
   std::size_t add(const spec::Signal& signal);
+  void show_counters();
   void add_probes();
   void add_sequencer();
   void at(std::uint64_t halves);
@@ -44,7 +45,7 @@ class ClockedVcd {
   const engine::ClockStepped& array_;
   const std::uint64_t period_;
   files::VcdFile file_;
-  std::size_t irq_ = 0, clock_ = 0, segment_ = 0, beat_ = 0, busy_ = 0, sweeps_ = 0;
+  std::size_t irq_ = 0, clock_ = 0, segment_ = 0, beat_ = 0, busy_ = 0, sweeps_ = 0, momentum_ = 0;
   const std::vector<engine::Probe> probes_;
   std::vector<Watched> always_, of_prepare_; ///< what changes in every segment, and in prepare
   std::vector<std::vector<Watched>> of_phase_;

@@ -83,16 +83,20 @@ void EngineWave::load(const engine::Engine& array) {
   array_.write_biases(0, words.data(), array.topology().neurons());
   array.read_outputs(0, words.data(), array.topology().neurons());
   array_.write_outputs(0, words.data(), array.topology().neurons());
+  if (!spec::has_momentum(array.array())) return;
+  words.resize(static_cast<std::size_t>(array.array().momentum_entries));
+  array.read_momentum(0, words.data(), words.size());
+  array_.write_momentum(0, words.data(), words.size());
 }
 
-void EngineWave::run(const engine::Engine& array, std::uint32_t threshold, std::uint32_t max_sweeps,
-                     std::uint64_t bus, const std::atomic<bool>& stop) {
+void EngineWave::run(const engine::Engine& array, const RunLimits& limits, std::uint64_t bus,
+                     const std::atomic<bool>& stop) {
   run_began_ = now_ + (bus - bus_);
   bus_ = bus;
-  stepped_ = wants(max_sweeps);
+  stepped_ = wants(limits.max_sweeps);
   if (!stepped_) return;
   load(array);
-  array_.start(threshold, max_sweeps);
+  array_.start(limits.threshold, limits.max_sweeps, limits.rule);
   if (vcd_) {
     guarded([&] {
       vcd_->show_host(2 * now_);

@@ -10,6 +10,12 @@
 
 namespace hopmesh::levels {
 
+/// What a run is started with.
+struct RunLimits {
+  std::uint32_t threshold = 0, max_sweeps = 1;
+  spec::StopRule rule = {};
+};
+
 /// Keeps time in cycles of the array's clock, as the SystemC level does: the host's writes show when the last
 /// run was read back, transfers take their bus cycles one after the other, and START takes effect when the
 /// bus has delivered it.
@@ -26,7 +32,7 @@ class EngineWave {
   void end_step(std::uint64_t step, std::uint64_t bus);
   /// The run that `array` is about to compute, clock by clock if the window asks for it. Ends early on
   /// `stop`.
-  void run(const engine::Engine& array, std::uint32_t threshold, std::uint32_t max_sweeps, std::uint64_t bus,
+  void run(const engine::Engine& array, const RunLimits& limits, std::uint64_t bus,
            const std::atomic<bool>& stop);
   /// `array` has computed it. Throws std::logic_error if that was not the same; a run that was aborted ends
   /// the wave, which has shown more than it came to.

@@ -282,5 +282,46 @@ TEST_F(CliSolve, ProblemsAreListedAndWritten) {
   EXPECT_TRUE(content_of(at("a/solve.csv")) == content_of(at("b/solve.csv")));
 }
 
+// ---- the stages that step further, and rest by sum
+
+/// The box of docs/use/own-networks.md by each stage: the same answer, and fewer sweeps than the paper's.
+TEST_F(CliSolve, EveryStageComesToTheSameAnswerByInputs) {
+  good("solve box-random-100 --level reference --stop sum --share 1e-9 --sweeps 1000000 --out m");
+  const double energy = summary("m")["energy"].get<double>();
+  for (const std::string rule : {"projected", "momentum --set array.schedule=synchronous"})
+    for (const std::string level : {"reference", "engine", "systemc"}) {
+      const bool fixed = level != "reference";
+      good("solve box-random-100 --stop sum --share 1e-9 --out o --level " + level + " --rule " + rule +
+           (fixed ? " --set formats.link=fixed<24,2,SC_RND,SC_SAT>" : ""));
+      EXPECT_TRUE(summary("o")["converged"].get<bool>()) << rule << level;
+      EXPECT_LT(summary("o")["sweeps"].get<int>(), summary("m")["sweeps"].get<int>()) << rule << level;
+      EXPECT_NEAR(summary("o")["energy"].get<double>(), energy, (fixed ? 1e-4 : 1e-9) * std::abs(energy));
+      EXPECT_EQ(read_table(at("o/solve.csv")).rows(), 1 + summary("o")["sweeps"].get<std::size_t>());
+    }
+}
+
+TEST_F(CliSolve, ATableOfMomentumCounts) {
+  const std::string line = "solve box-random-100 --rule momentum --set array.schedule=synchronous --level ";
+  for (const std::string level : {"reference", "engine"}) {
+    good(line + level + " --out f");
+    good(line + level + " --momentum 0 --out none");
+    good(line + level + " --momentum 0.5,0.9 --out own");
+    EXPECT_GT(summary("none")["sweeps"].get<int>(), summary("f")["sweeps"].get<int>());
+    EXPECT_NE(content_of(at("own/solve.csv")), content_of(at("f/solve.csv")));
+  }
+}
+
+TEST_F(CliSolve, MistakesOfStagesAreToldInOneLine) {
+  refused("solve two-neurons --stop never", "--stop: found never, expected change or sum");
+  refused("solve two-neurons --share 0.75", "--share: found 0.75, expected a number from 0 to 0.5");
+  refused("solve two-neurons --momentum 0.5", "--momentum: found array.output = modified, expected momentum");
+  refused("solve two-neurons --rule momentum",
+          "array.schedule: found \"coloured\", expected \"synchronous\"");
+  const std::string momentum = "solve two-neurons --rule momentum --set array.schedule=synchronous ";
+  refused(momentum + "--momentum 1.5", "--momentum: found 1.5, expected numbers from 0 to 1");
+  refused(momentum + "--momentum 0,0 --set array.momentum_entries=1",
+          "--momentum: found 2 numbers, expected at most the 1 of array.momentum_entries");
+}
+
 } // namespace
 } // namespace hopmesh::tests
