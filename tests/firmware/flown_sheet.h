@@ -1,6 +1,7 @@
 // A sheet that the firmware flies on the software array, and each step's exact answer from another source.
 #pragma once
 
+#include "tests/firmware/elimination.h"
 #include "tests/support/firmware_mesh.h"
 #include "tests/support/soft_array.h"
 
@@ -11,7 +12,6 @@ extern "C" {
 }
 
 #include <cmath>
-#include <stdexcept>
 
 namespace hopmesh::tests {
 
@@ -50,29 +50,6 @@ inline spec::Topology topology_of(const hm_mesh& mesh) {
   t.first_link.assign(mesh.first_link, mesh.first_link + mesh.cells + 1);
   t.link_to.assign(mesh.link_to, mesh.link_to + mesh.first_link[mesh.cells]);
   return t;
-}
-
-/// x of H x = b, H symmetric and positive definite, row by row: Cholesky within a band.
-inline std::vector<double> solved(std::vector<std::vector<double>> H, std::vector<double> b,
-                                  std::size_t band) {
-  const std::size_t n = b.size();
-  const auto first = [&](std::size_t row) { return row > band ? row - band : 0; };
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = first(i); j <= i; ++j) {
-      double sum = H[i][j];
-      for (std::size_t k = std::max(first(i), first(j)); k < j; ++k) sum -= H[i][k] * H[j][k];
-      if (i == j && !(sum > 0)) throw std::runtime_error("not definite");
-      H[i][j] = i == j ? std::sqrt(sum) : sum / H[j][j];
-    }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = first(i); k < i; ++k) b[i] -= H[i][k] * b[k];
-    b[i] /= H[i][i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    b[i] /= H[i][i];
-    for (std::size_t k = first(i); k < i; ++k) b[k] -= H[i][k] * b[i];
-  }
-  return b;
 }
 
 class FlownSheet {
