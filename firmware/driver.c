@@ -227,6 +227,19 @@ static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* net
   return hm_window_read(&d->line, &d->outputs, last_place, network->output, hm_neuron_count(mesh));
 }
 
+static int expect_idle(const hm_driver* d) {
+  uint32_t status;
+  TRY(hm_read_register(d, HM_REG_STATUS, &status));
+  return status & HM_STATUS_BUSY ? HM_ERROR_BUSY : HM_OK;
+}
+
+static int run(const hm_driver* d, const hm_mesh* mesh, hm_network* network, double threshold,
+               uint32_t max_sweeps, hm_relaxation* result) {
+  TRY(start_and_wait(d, threshold, max_sweeps));
+  TRY(read_counters(d, result));
+  return read_outputs(d, mesh, network);
+}
+
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
                     uint32_t max_sweeps, hm_relaxation* result) {
   hm_driver* d = driver;
@@ -237,13 +250,35 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
     return HM_ERROR_NUMBER;
   d->shift = hm_driver_prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = d->vanished = 0;
-  uint32_t status;
-  TRY(hm_read_register(d, HM_REG_STATUS, &status));
-  if (status & HM_STATUS_BUSY) return HM_ERROR_BUSY;
+  TRY(expect_idle(d));
   TRY(load_rows(d, mesh, network, d->shift));
   TRY(load_outputs(d, mesh, network));
   TRY(hm_driver_write_stop(d, mesh, network));
-  TRY(start_and_wait(d, threshold, max_sweeps));
-  TRY(read_counters(d, result));
-  return read_outputs(d, mesh, network);
+  return run(d, mesh, network, threshold, max_sweeps, result);
+}
+
+/* Of a residual much vanishes wherever it is done with: that tells nothing of the network. */
+int hm_driver_correct(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
+                      uint32_t max_sweeps, hm_relaxation* result) {
+  hm_driver* d = driver;
+  const uint32_t neurons = hm_neuron_count(mesh), vanished = d->vanished;
+  if (!is_finite(largest_bits(network->bias, neurons)) || !is_finite(largest_bits(network->output, neurons)))
+    return HM_ERROR_NUMBER;
+  TRY(expect_idle(d));
+  TRY(load_biases(d, mesh, network, d->shift));
+  d->vanished = vanished;
+  TRY(load_outputs(d, mesh, network));
+  return run(d, mesh, network, threshold, max_sweeps, result);
+}
+
+double hm_driver_room(void* driver) {
+  const hm_driver* d = driver;
+  return hm_largest_value(&d->bias) * hm_power_of_two(-d->shift);
+}
+
+int hm_driver_restore(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
+  d->shift = shift;
+  TRY(expect_idle(d));
+  TRY(load_weights(d, mesh, network, shift));
+  return hm_driver_write_stop(d, mesh, network);
 }

@@ -50,6 +50,18 @@ int hm_driver_put_momentum(hm_driver* driver, const double* m, uint32_t count);
 int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
                     uint32_t max_sweeps, hm_relaxation* result);
 
+/* Relaxes with the weights of the last hm_driver_relax, of an array whose rows are not prescaled: only
+   network->bias travels, at their shift, and network->output, from where it relaxes. driver->clipped goes on
+   counting. Answers as hm_driver_relax. */
+int hm_driver_correct(void* driver, const hm_mesh* mesh, hm_network* network, double threshold,
+                      uint32_t max_sweeps, hm_relaxation* result);
+
+/* The largest bias that fits beside the weights of the last hm_driver_relax. */
+double hm_driver_room(void* driver);
+
+/* Puts weights of an earlier hm_driver_relax back, at the shift of then, for corrections to go on with. */
+int hm_driver_restore(hm_driver* driver, const hm_mesh* mesh, const hm_network* network, int shift);
+
 #ifdef __cplusplus
 }
 #endif

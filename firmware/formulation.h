@@ -17,6 +17,7 @@ typedef struct hm_step_work {
   const hm_solver* solver;
   hm_state* state;
   hm_relaxation* relaxation; /* sum of the step's */
+  hm_refinement* refinement; /* of the step */
   double h;                  /* s^2: a node moves by h times its acceleration; static: 1 */
   double kept;               /* share of its velocity that a node keeps */
   double inertia;            /* incremental: kg/s^2, holds x to C; static: 0 */
@@ -38,6 +39,8 @@ typedef struct hm_formulation {
   void (*build)(const hm_step_work* work);
   /* An expansion: builds and relaxes, hm_expand or more than one of it. */
   int (*relax)(const hm_step_work* work);
+  /* Null where there are no corrections: I + W V of the network about state->start. */
+  void (*residual)(const hm_step_work* work, const double* V, double* residual);
   /* Null, or what `next` asks for beside the outputs at rest. */
   void (*weigh)(const hm_step_work* work);
   /* next[p]: along component p of a cell's node. */

@@ -2,6 +2,7 @@
    inertia holds back. */
 #include "firmware/incremental.h"
 #include "firmware/network.h"
+#include "firmware/refine.h"
 #include "firmware/springs.h"
 
 static const uint32_t most_halvings = 40;  /* of a step that would climb */
@@ -122,7 +123,8 @@ static void halve_climb(const hm_step_work* work) {
 const hm_formulation hm_backward_euler = {.name = "backward_euler",
                                           .begin = begin_backward_euler,
                                           .build = hm_build_incremental,
-                                          .relax = hm_relax_in_range,
+                                          .relax = hm_relax_refined,
+                                          .residual = hm_residual_of_increment,
                                           .next = find_next,
                                           .finish = halve_climb};
 
@@ -130,6 +132,7 @@ const hm_formulation hm_bdf2 = {.name = "bdf2",
                                 .looks_back = 1,
                                 .begin = begin_bdf2,
                                 .build = hm_build_incremental,
-                                .relax = hm_relax_in_range,
+                                .relax = hm_relax_refined,
+                                .residual = hm_residual_of_increment,
                                 .next = find_next,
                                 .finish = halve_climb};

@@ -2,12 +2,12 @@
 
 #include "firmware/bus.h"
 #include "firmware/doubles.h"
-#include "firmware/network.h"
+#include "firmware/quantise.h"
+#include "firmware/residual.h"
 
 /* At rest the largest output lies between these, else the step is relaxed again at another scale. Above, the
    output stage slows down (R = 1 - |V|) and clipping is near; below, places are lost. */
 static const double most_output = 0.75, least_output = 0.125;
-static const double least_scale = 0x1p-200; /* the square of what it reaches still counts */
 static const uint32_t most_growths = 64;
 
 double hm_largest(const double* values, uint32_t count) {
@@ -21,17 +21,7 @@ void hm_clear_outputs(const hm_step_work* work) {
   for (uint32_t k = 0; k < hm_neuron_count(work->mesh); ++k) work->state->network.output[k] = 0;
 }
 
-/* The least power of two that is at least x, and at least least_scale; x where it is not finite. */
-static double power_above(double x) {
-  double power = 1;
-  if (!hm_is_finite(x)) return x;
-  while (power < x) power *= 2;
-  while (power / 2 >= x && power > least_scale) power /= 2;
-  return power;
-}
-
-/* The largest weight of a neuron to itself. */
-static double largest_own(const hm_mesh* mesh, const hm_network* network) {
+double hm_largest_own(const hm_mesh* mesh, const hm_network* network) {
   double largest = 0;
   for (uint32_t c = 0; c < mesh->cells; ++c)
     for (uint32_t p = 0; p < mesh->components; ++p) {
@@ -47,12 +37,12 @@ double hm_change_by_pull(const hm_step_work* work) {
   state->scale = 1;
   work->parameters->formulation->build(work);
   const double pull = hm_largest(state->network.bias, hm_neuron_count(work->mesh));
-  return pull > 0 ? pull / largest_own(work->mesh, &state->network) : 0.5; /* any scale will do */
+  return pull > 0 ? pull / hm_largest_own(work->mesh, &state->network) : 0.5; /* any scale will do */
 }
 
 void hm_choose_scale(const hm_step_work* work, double expected_change) {
   const double wanted = 2 * expected_change;
-  work->state->scale = power_above(wanted < work->most_scale ? wanted : work->most_scale);
+  work->state->scale = hm_power_above(wanted < work->most_scale ? wanted : work->most_scale);
 }
 
 void hm_build_incremental(const hm_step_work* work) {
@@ -61,16 +51,26 @@ void hm_build_incremental(const hm_step_work* work) {
                                &state->network);
 }
 
+void hm_residual_of_increment(const hm_step_work* work, const double* V, double* residual) {
+  const hm_state* state = work->state;
+  const hm_increment about = {state->predicted, work->h * state->scale, work->inertia, state->start};
+  hm_residual(work->mesh, &about, V, residual);
+}
+
 static void rescale(const hm_step_work* work, double scale) {
   hm_state* state = work->state;
   for (uint32_t k = 0; k < hm_neuron_count(work->mesh); ++k) state->network.output[k] *= state->scale / scale;
   state->scale = scale;
 }
 
+int hm_may_grow(const hm_step_work* work, double largest) {
+  return largest > most_output && 2 * work->state->scale <= work->most_scale;
+}
+
 /* At a scale that is too large for the array's words nothing moves at all, however hard it is pulled. */
 static double smaller_scale(const hm_step_work* work, double largest) {
   const hm_state* state = work->state;
-  if (largest > 0) return power_above(2 * largest * state->scale);
+  if (largest > 0) return hm_power_above(2 * largest * state->scale);
   const double pull = hm_largest(state->network.bias, hm_neuron_count(work->mesh));
   return pull > 0 ? state->scale / 4 : state->scale;
 }
@@ -84,8 +84,7 @@ static double least_useful_scale(const hm_step_work* work) {
 static double better_scale(const hm_step_work* work, uint32_t growths) {
   const double scale = work->state->scale;
   const double largest = hm_largest(work->state->network.output, hm_neuron_count(work->mesh));
-  if (largest > most_output)
-    return 2 * scale <= work->most_scale && growths < most_growths ? 2 * scale : scale;
+  if (largest > most_output) return hm_may_grow(work, largest) && growths < most_growths ? 2 * scale : scale;
   if (largest >= least_output || growths > 0) return scale;
   const double smaller = smaller_scale(work, largest);
   return smaller < scale && smaller >= least_useful_scale(work) ? smaller : scale;

@@ -13,6 +13,9 @@ static inline double hm_force_on(const hm_step_parameters* parameters, uint32_t 
 /* The largest magnitude; what is no number counts as larger than any. */
 double hm_largest(const double* values, uint32_t count);
 
+/* The largest weight of a neuron to itself. */
+double hm_largest_own(const hm_mesh* mesh, const hm_network* network);
+
 void hm_clear_outputs(const hm_step_work* work);
 
 /* What the largest pull does to the stiffest node, its own weight alone holding it: at least half of what is
@@ -25,7 +28,13 @@ void hm_choose_scale(const hm_step_work* work, double expected_change);
 /* hm_formulation.build of springs and inertia. */
 void hm_build_incremental(const hm_step_work* work);
 
-/* hm_formulation.relax: expands until the largest output is within its bounds. */
+/* Expands until the largest output is within its bounds. */
 int hm_relax_in_range(const hm_step_work* work);
+
+/* Shall the scale double, with so large an output? */
+int hm_may_grow(const hm_step_work* work, double largest);
+
+/* hm_formulation.residual of springs and inertia. */
+void hm_residual_of_increment(const hm_step_work* work, const double* V, double* residual);
 
 #endif

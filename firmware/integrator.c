@@ -40,7 +40,13 @@ static void move(const hm_step_work* work) {
 int hm_step(const hm_mesh* mesh, const hm_step_parameters* parameters, const hm_solver* solver,
             hm_state* state, hm_step_result* result) {
   const hm_formulation* formulation = parameters->formulation;
-  hm_step_work work = {mesh, parameters, solver, state, &result->relaxation, .kept = parameters->friction};
+  hm_step_work work = {mesh,
+                       parameters,
+                       solver,
+                       state,
+                       &result->relaxation,
+                       &result->refinement,
+                       .kept = parameters->friction};
   *result = (hm_step_result){0};
   formulation->begin(&work);
   for (uint32_t expansion = 0; expansion < parameters->expansions; ++expansion) {

@@ -10,6 +10,15 @@ double hm_power_of_two(int exponent) {
   return value;
 }
 
+double hm_power_above(double x) {
+  const double least = 0x1p-200; /* the square of what it reaches still counts */
+  double power = 1;
+  if (!hm_is_finite(x)) return x;
+  while (power < x) power *= 2;
+  while (power / 2 >= x && power > least) power /= 2;
+  return power;
+}
+
 static int64_t most(const hm_format* f) {
   return ((int64_t)1 << (f->width - 1)) - 1;
 }
@@ -140,8 +149,12 @@ uint32_t hm_codes(const double* values, uint32_t count, double scale, const hm_f
   return count_clipped(values, count, scale, format, (uint32_t)low, (uint32_t)high, words);
 }
 
+double hm_largest_value(const hm_format* f) {
+  return (double)most(f) / hm_power_of_two(hm_fraction_bits(f));
+}
+
 int hm_room(double largest, const hm_format* f) {
-  const double limit = (double)most(f) / hm_power_of_two(hm_fraction_bits(f));
+  const double limit = hm_largest_value(f);
   int shift = 0;
   while (largest * 2 <= limit && shift < 960) largest *= 2, ++shift;
   while (largest > limit && shift > -1000) largest /= 2, --shift;

@@ -18,7 +18,16 @@ typedef struct hm_solver {
   void* context;
   int (*relax)(void* context, const hm_mesh* mesh, hm_network* network, double threshold, uint32_t max_sweeps,
                hm_relaxation* result);
+  /* Null where there are no corrections. As `relax`, with the weights of the last `relax`: only bias and
+     outputs travel. */
+  int (*correct)(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
+                 uint32_t max_sweeps, hm_relaxation* result);
+  /* The largest bias that fits beside those weights. */
+  double (*room)(void* context);
 } hm_solver;
+
+/* Adds sweeps and cycles; `converged` becomes this one's. */
+void hm_add_relaxation(hm_relaxation* sum, const hm_relaxation* one);
 
 /* Relaxes from where the outputs are, which `start` keeps. Adds sweeps and cycles to the sum; its `converged`
    becomes this relaxation's. HM_OK, or the solver's error, which leaves the sum alone. */

@@ -2,6 +2,7 @@
    energy, nothing has a speed, and a step is one of Newton's. */
 #include "firmware/doubles.h"
 #include "firmware/incremental.h"
+#include "firmware/refine.h"
 #include "firmware/springs.h"
 
 static const uint32_t most_halvings = 40;  /* of a step that would climb */
@@ -21,6 +22,15 @@ static void build(const hm_step_work* work) {
     for (uint32_t p = 0; p < mesh->components; ++p)
       state->network.bias[c * mesh->components + p] +=
           state->scale * load(work->parameters, mesh->node_of_cell[c], mesh->axis[p]);
+}
+
+static void find_residual(const hm_step_work* work, const double* V, double* residual) {
+  const hm_mesh* mesh = work->mesh;
+  hm_residual_of_increment(work, V, residual);
+  for (uint32_t c = 0; c < mesh->cells; ++c)
+    for (uint32_t p = 0; p < mesh->components; ++p)
+      residual[c * mesh->components + p] +=
+          work->state->scale * load(work->parameters, mesh->node_of_cell[c], mesh->axis[p]);
 }
 
 /* A quadratic mesh is solved as it is, however far that is; elsewhere a step trusts its expansion no further
@@ -78,6 +88,7 @@ static void halve_climb(const hm_step_work* work) {
 const hm_formulation hm_static = {.name = "static",
                                   .begin = begin,
                                   .build = build,
-                                  .relax = hm_relax_in_range,
+                                  .relax = hm_relax_refined,
+                                  .residual = find_residual,
                                   .next = find_next,
                                   .finish = halve_climb};

@@ -16,7 +16,17 @@ typedef struct hm_step_parameters {
   const double* node_force; /* incremental: [nodes * 3] of each node's own beside it; null: none */
   double threshold;
   uint32_t max_sweeps, expansions;
+  uint32_t refinements;  /* incremental: corrections of an expansion's answer by its residual */
+  uint32_t reload_every; /* incremental: weights stay in the array for so many steps; 0 and 1: for none */
 } hm_step_parameters;
+
+/* What corrections of earlier steps leave: nothing of it needs to be set. */
+typedef struct hm_kept {
+  double reach;    /* of the network whose weights the array has, h times its scale; 0: none to go on with */
+  double inertia;  /* in them, kg/s^2 */
+  uint64_t step;   /* that loaded them */
+  double softness; /* how far a residual of 1 moves an output, at a reach of 1; 0: not known yet */
+} hm_kept;
 
 /* State between steps, and room to work in. */
 typedef struct hm_state {
@@ -29,12 +39,22 @@ typedef struct hm_state {
   double* start;      /* [cells * components] V0 of the last expansion, before relaxing */
   hm_network network; /* of the step just done; output holds V at rest */
   double scale;       /* incremental: what an output of 1 stands for in that network, m/s^2; static: m */
-  uint64_t step;      /* steps done */
+  double* correction; /* incremental, with refinements or reload_every: [4 * cells * components], else null */
+  hm_kept kept;
+  uint64_t step; /* steps done */
 } hm_state;
+
+/* What came of a step's corrections. */
+typedef struct hm_refinement {
+  uint32_t corrections; /* that were kept */
+  uint32_t refused;     /* those that would have raised the network's energy */
+  double residual;      /* largest of neurons that may still move, over the largest |I|; 0: nobody asked */
+} hm_refinement;
 
 typedef struct hm_step_result {
   hm_relaxation relaxation; /* all of the step together; converged: the last one */
-  uint32_t lost_node;       /* with HM_ERROR_LOST: the first */
+  hm_refinement refinement;
+  uint32_t lost_node; /* with HM_ERROR_LOST: the first */
 } hm_step_result;
 
 #endif

@@ -144,7 +144,8 @@ void refuse_beside(const TomlSource& source, const Keys& keys) {
     if (!value || when.holds || when.otherwise == Otherwise::told) continue;
     if (when.otherwise == Otherwise::refused)
       throw source.error(*value, key.name, fmt::format("this key only beside {}", when.beside));
-    if (value_text(key.place) != "0.0") throw source.error(*value, key.name, fmt::format("0: {}", when.why));
+    const std::string text = value_text(key.place);
+    if (text != "0.0" && text != "0") throw source.error(*value, key.name, fmt::format("0: {}", when.why));
   }
 }
 

@@ -22,17 +22,32 @@ const hm_formulation* formulation_named(const std::string& name) {
 /// A driver, and where its relaxations are kept: a step may have several.
 struct Watched {
   hm_driver* driver;
-  hm_relaxation* last;
+  hm_relaxation* last; ///< the last answer, with the sweeps of its corrections
   std::vector<std::uint32_t>* sweeps;
+  std::vector<double>* weights; ///< as last loaded; null: nobody asks
 };
 
 int relax_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
                   std::uint32_t max_sweeps, hm_relaxation* result) {
   const auto* watched = static_cast<Watched*>(context);
+  if (watched->weights) watched->weights->assign(network->weight, network->weight + hm_weight_count(mesh));
   const int error = hm_driver_relax(watched->driver, mesh, network, threshold, max_sweeps, result);
   *watched->last = *result;
   watched->sweeps->push_back(result->sweeps);
   return error;
+}
+
+int correct_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
+                    std::uint32_t max_sweeps, hm_relaxation* result) {
+  const auto* watched = static_cast<Watched*>(context);
+  const int error = hm_driver_correct(watched->driver, mesh, network, threshold, max_sweeps, result);
+  hm_add_relaxation(watched->last, result);
+  watched->sweeps->push_back(result->sweeps);
+  return error;
+}
+
+double room_watched(void* context) {
+  return hm_driver_room(static_cast<Watched*>(context)->driver);
 }
 
 } // namespace
@@ -54,6 +69,9 @@ hm_step_parameters step_parameters(const scene::Scene& scene) {
   m.threshold = scene.relax.threshold;
   m.max_sweeps = static_cast<std::uint32_t>(scene.relax.max_sweeps);
   m.expansions = static_cast<std::uint32_t>(scene.relax.expansions);
+  m.refinements = static_cast<std::uint32_t>(scene.relax.refinements);
+  if (scene.relax.reload == scene::Reload::bias)
+    m.reload_every = static_cast<std::uint32_t>(scene.relax.reload_every);
   return m;
 }
 
@@ -61,6 +79,7 @@ ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const s
                        ArrayPort& port, bool check)
     : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), motion_(step_parameters(scene)),
       relax_(scene.relax), memory_(mesh, motion_.formulation->looks_back), buffer_(longest_burst) {
+  if (relax_.corrects()) memory_.make_room();
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
   const bool signs = array.output == spec::Output::binary;
@@ -76,6 +95,32 @@ void ArrayMover::open() {
   const std::vector<double>& m = relax_.momentum;
   if (driver_.output == HM_OUTPUT_MOMENTUM && !m.empty())
     levels::check(hm_driver_put_momentum(&driver_, m.data(), static_cast<std::uint32_t>(m.size())));
+  put_kept_back();
+}
+
+// Reach, inertia, step, softness, shift; then the weights that the array has.
+namespace {
+constexpr std::size_t kept_figures = 5;
+}
+
+void ArrayMover::keep() {
+  if (!relax_.corrects()) return;
+  const hm_kept& kept = memory_.state.kept;
+  std::vector<double>& all = memory_.now.kept;
+  all = {kept.reach, kept.inertia, static_cast<double>(kept.step), kept.softness,
+         static_cast<double>(driver_.shift)};
+  all.insert(all.end(), loaded_.begin(), loaded_.end());
+}
+
+// An array that was just made has no weights yet.
+void ArrayMover::put_kept_back() {
+  const std::vector<double>& all = memory_.now.kept;
+  if (all.size() < kept_figures) return;
+  memory_.state.kept = {all[0], all[1], static_cast<std::uint64_t>(all[2]), all[3]};
+  loaded_.assign(all.begin() + kept_figures, all.end());
+  if (loaded_.empty()) return;
+  const hm_network network{loaded_.data(), memory_.bias.data(), memory_.now.output.data()};
+  levels::check(hm_driver_restore(&driver_, &mesh_.firmware(), &network, static_cast<int>(all[4])));
 }
 
 StepRow ArrayMover::advance() {
@@ -87,8 +132,9 @@ StepRow ArrayMover::advance() {
   port_.begin_step(step);
   hm_relaxation last{};
   sweeps_.clear();
-  Watched watched{&driver_, &last, &sweeps_};
-  const hm_solver solver{&watched, relax_watched};
+  Watched watched{&driver_, &last, &sweeps_, motion_.reload_every > 1 ? &loaded_ : nullptr};
+  const hm_solver solver{&watched, relax_watched, correct_watched, room_watched};
+  driver_.clipped = driver_.vanished = 0;
   hm_step_result result;
   const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
   if (error == HM_ERROR_STOPPED) {
@@ -108,6 +154,9 @@ StepRow ArrayMover::advance() {
   row.cycles = result.relaxation.cycles;
   row.converged = result.relaxation.converged;
   look_back(row);
+  row.refinements = result.refinement.corrections;
+  row.refused = result.refinement.refused;
+  if (relax_.corrects()) row.residual = result.refinement.residual;
   row.clipped = driver_.clipped;
   row.vanished = driver_.vanished;
   row.bus_cycles = bus_cycles() - bus_before;
@@ -121,6 +170,7 @@ StepRow ArrayMover::advance() {
     row.fall_left = row.error->fall_left;
     judging_seconds_ += processor_seconds() - began;
   }
+  keep();
   row.hash = state_hash(memory_.now);
   return row;
 }
@@ -162,10 +212,13 @@ void ArrayMover::restore(const StepState& state, const std::vector<SignalRange>&
   const auto from = parts_of(state);
   const auto to = parts_of(memory_.now);
   for (std::size_t k = 0; k < to.size(); ++k) {
+    if (to[k].second == &memory_.now.kept) continue;
     if (from[k].second->size() != to[k].second->size()) throw std::logic_error("the state of another mesh");
     std::copy(from[k].second->begin(), from[k].second->end(), to[k].second->begin());
   }
   memory_.state.step = state.step;
+  memory_.now.kept = state.kept;
+  if (driver_.line.bus) put_kept_back();
   seen_ = seen;
 }
 

@@ -37,6 +37,8 @@ class ArrayMover : public Mover {
  private:
   void open();
   void look_back(StepRow& row);
+  void keep();
+  void put_kept_back();
   std::uint64_t bus_cycles() const;
 
   const BuiltMesh& mesh_;
@@ -52,6 +54,7 @@ class ArrayMover : public Mover {
   std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
   std::vector<SignalRange> seen_; ///< before restore()
   std::vector<std::uint32_t> sweeps_;
+  std::vector<double> loaded_; ///< weights that the array has, where a later step may go on with them
   std::vector<std::uint32_t> buffer_;
   double judging_seconds_ = 0;
 };

@@ -32,6 +32,9 @@ StepRow ReferenceMover::advance() {
   row.sweeps = last_.relaxation.sweeps;
   row.converged = last_.relaxation.converged;
   if (!row.converged) row.alternation = alternation(last_.network, order_, last_.relaxation.V, motion_.rule);
+  row.refinements = last_.refinement.corrections;
+  row.refused = last_.refinement.refused;
+  if (motion_.refinements > 0) row.residual = last_.refinement.residual;
   row.input_left = input_left(last_.network, last_.relaxation.V);
   row.fall_left = left_of_fall();
   for (Eigen::Index k = 0; k < last_.relaxation.V.size(); ++k)
@@ -71,7 +74,8 @@ StepState ReferenceMover::state() const {
           values_of(state_.acceleration),
           values_of(state_.V),
           values_of(state_.previous_position),
-          values_of(state_.previous_velocity)};
+          values_of(state_.previous_velocity),
+          {}};
 }
 
 void ReferenceMover::restore(const StepState& state, const std::vector<SignalRange>&) {

@@ -25,6 +25,7 @@ enum class Subject {
   relaxation, ///< of a network
   rest,       ///< how near it came
   glance,     ///< how near the host sees at least that it did not come
+  correction, ///< of answers by their residuals
   clock,      ///< of a simulated array
   network,    ///< as loaded into an array
   reference   ///< the array's answers against it
@@ -121,6 +122,21 @@ inline constexpr StepColumn all_step_columns[] = {
                &ReferenceError::network, Subject::reference, {},
                Total{Summary::largest, "largest_network_error", "largest weight or bias error",
                      "{:.2g} of the largest"}),
+    StepColumn("refinements", "", "corrections of the array's answer that were kept (`relax.refinements`)",
+               &StepRow::refinements, Subject::correction, {},
+               Total{Summary::sum, "refinements", "corrections", "{}"}),
+    StepColumn("refused", "",
+               "corrections that were not, since the network's energy would have risen: the step keeps the "
+               "answer before",
+               &StepRow::refused, Subject::correction, {},
+               Total{Summary::sum, "refinements_refused", "corrections refused", "{}"}),
+    StepColumn(
+        "residual", "",
+        "what they leave, from the mesh in double: largest |s| of neurons that may still move, over the "
+        "largest |I|",
+        &StepRow::residual, Subject::correction, Curve{"residual at the end of a step"},
+        Total{Summary::median, "median_residual", "residual of a step", "{:.2g} (median)"},
+        Total{Summary::largest, "largest_residual", "largest residual", "{:.2g}"}),
     StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
                HashFigure{&StepRow::hash}, Subject::motion),
 };

@@ -30,4 +30,9 @@ StepMemory::StepMemory(const BuiltMesh& mesh, bool looks_back) {
   state.network = {weight.data(), bias.data(), now.output.data()};
 }
 
+void StepMemory::make_room() {
+  correction.assign(4 * start.size(), 0.0);
+  state.correction = correction.data();
+}
+
 } // namespace hopmesh::levels

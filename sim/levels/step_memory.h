@@ -11,6 +11,8 @@ namespace hopmesh::levels {
 struct StepMemory {
   /// `looks_back`: as the formulation does.
   explicit StepMemory(const BuiltMesh& mesh, bool looks_back = false);
+  /// Room for corrections.
+  void make_room();
   StepMemory(const StepMemory&) = delete;
   StepMemory& operator=(const StepMemory&) = delete;
 
@@ -19,6 +21,7 @@ struct StepMemory {
   std::vector<double> energy_change;       ///< [cells]
   std::vector<double> direction;           ///< [cells * 3]
   std::vector<double> start, weight, bias; ///< as hm_network
+  std::vector<double> correction;          ///< of the firmware's corrections; empty: it makes none
   hm_state state{};
 };
 

@@ -27,9 +27,11 @@ struct StepRow {
   bool converged = false;
   /// Of a step that did not converge: 1 where outputs swing between two states for ever.
   double alternation = 0;
-  double input_left = 0;           ///< see sim/levels/left_over.h
-  std::optional<double> fall_left; ///< where the reference was asked or answers itself
-  std::optional<double> fall_seen; ///< of it, so much at least: LeftOver
+  double input_left = 0;                      ///< see sim/levels/left_over.h
+  std::uint64_t refinements = 0, refused = 0; ///< corrections that were kept, and that were not
+  std::optional<double> residual;             ///< where corrections were asked for
+  std::optional<double> fall_left;            ///< where the reference was asked or answers itself
+  std::optional<double> fall_seen;            ///< of it, so much at least: LeftOver
   std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;

@@ -15,6 +15,9 @@ struct StepState {
   std::vector<double> output; ///< V at rest: [cells * components], at level reference [nodes * components]
   std::vector<double> previous_position,
       previous_velocity; ///< a step before; of methods that look back, else empty
+  /// Of arrays whose answers are corrected, else empty: what hm_kept holds, the shift of the weights that the
+  /// array has, and these weights where a step may go on with them.
+  std::vector<double> kept;
 };
 
 /// The arrays of a state in their order, each with its name.
@@ -24,7 +27,8 @@ template <class State> auto parts_of(State& state) {
                     std::pair("acceleration", &state.acceleration),
                     std::pair("output", &state.output),
                     std::pair("previous_position", &state.previous_position),
-                    std::pair("previous_velocity", &state.previous_velocity)};
+                    std::pair("previous_velocity", &state.previous_velocity),
+                    std::pair("kept", &state.kept)};
 }
 
 /// XXH64 of more values behind those that gave `before`.

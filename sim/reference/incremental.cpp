@@ -91,6 +91,7 @@ class Relaxing {
     relax_once(step);
     while (rescale(step, smaller(step))) relax_once(step);
     for (int k = 0; k < most_growths && rescale(step, larger(step)); ++k) relax_once(step);
+    if (motion_.refinements > 0 && !motion_.answer) correct(step);
   }
 
  private:
@@ -100,6 +101,14 @@ class Relaxing {
     step.network = network(mesh_, increment_, step.scale, step.V0);
     step.relaxation = answered(motion_, step.network, order_, step.V0, number_);
     step.relaxation.sweeps += before;
+  }
+
+  void correct(Step& step) const {
+    const Refinement made = refine(step.network, order_, step.V0, motion_.stop(), motion_.rule,
+                                   motion_.refinements, step.relaxation);
+    step.refinement.corrections += made.corrections;
+    step.refinement.refused += made.refused;
+    step.refinement.residual = made.residual;
   }
 
   // Words may be too coarse for anything to move at a scale; where nothing pulls, nothing should. A scale is

@@ -34,6 +34,7 @@ StepParameters step_parameters(const scene::Scene& scene) {
   motion.threshold = scene.relax.threshold;
   motion.max_sweeps = static_cast<std::uint32_t>(scene.relax.max_sweeps);
   motion.expansions = static_cast<std::uint32_t>(scene.relax.expansions);
+  motion.refinements = static_cast<std::uint32_t>(scene.relax.refinements);
   return motion;
 }
 

@@ -2,7 +2,7 @@
 // alone. The reference shares no arithmetic with the firmware or the array; that they agree is evidence.
 #pragma once
 
-#include "sim/reference/relaxation.h"
+#include "sim/reference/refinement.h"
 #include "sim/scene/mesh.h"
 
 #include <functional>
@@ -29,6 +29,7 @@ struct StepParameters {
   double threshold;
   std::uint32_t max_sweeps, expansions;
   std::optional<double> share = {}; ///< of the first sweep's |s|, by which to stop; none: by the threshold
+  std::uint32_t refinements = 0;    ///< corrections of an expansion's answer; incremental
   Answerer answer = nullptr;        ///< none: relax() until stop()
 
   Stop stop() const { return {threshold, max_sweeps, share}; }
@@ -89,6 +90,7 @@ struct Step {
   Vector predicted, V0;
   Network network;
   Relaxation relaxation;
+  Refinement refinement = {}; ///< of all expansions; the residual is the last one's
 };
 
 /// A formulation of the time step (docs/method/theory.md, section 4).

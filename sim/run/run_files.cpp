@@ -179,6 +179,7 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   add_totals(json, Subject::relaxation, rows);
   if (!rows.empty() && rows.front().fall_left) add_totals(json, Subject::rest, rows);
   if (!rows.empty() && rows.front().fall_seen) add_totals(json, Subject::glance, rows);
+  if (!rows.empty() && rows.front().residual) add_totals(json, Subject::correction, rows);
   json["neuron_updates"] = updates;
   json["wall_seconds"] = s;
   json["steps_per_second"] = a_second(rows.size());

@@ -53,6 +53,8 @@ template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& 
     return !rows.empty() && rows.front().fall_left.has_value();
   case Subject::glance:
     return !rows.empty() && rows.front().fall_seen.has_value();
+  case Subject::correction:
+    return !rows.empty() && rows.front().residual.has_value();
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
@@ -85,7 +87,7 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
   lines.push_back({"steps/s", fmt::format("{:.1f}", rate(rows.size()))});
   if (is_shown(Subject::relaxation, facts, rows)) {
     add_totals(Subject::relaxation, rows, lines);
-    for (const Subject subject : {Subject::rest, Subject::glance})
+    for (const Subject subject : {Subject::rest, Subject::glance, Subject::correction})
       if (is_shown(subject, facts, rows)) add_totals(subject, rows, lines);
     lines.push_back({"neuron updates/s", fmt::format("{:.3g}", rate(neuron_updates(rows, mesh)))});
   }

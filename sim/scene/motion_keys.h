@@ -46,6 +46,10 @@ struct IncrementalSpec {
 enum class Stop : std::uint8_t { change, sum };
 inline constexpr std::array<std::string_view, 2> stop_names{"change", "sum"};
 
+/// What a step sends of its network where weights may stay.
+enum class Reload : std::uint8_t { all, bias };
+inline constexpr std::array<std::string_view, 2> reload_names{"all", "bias"};
+
 struct RelaxSpec {
   double threshold = 1e-4;
   std::int64_t max_sweeps = 300;
@@ -53,6 +57,12 @@ struct RelaxSpec {
   Stop stop = Stop::change;
   double share = 0x1p-13;            ///< 0: none
   std::vector<double> momentum = {}; ///< m of each sweep, the last for all that follow; empty: "fista"
+  std::int64_t refinements = 0;
+  Reload reload = Reload::all;
+  std::int64_t reload_every = 4;
+
+  /// Whether steps stand on corrections at all.
+  bool corrects() const { return refinements > 0 || reload == Reload::bias; }
 };
 
 /// The table of m as the value of a key.
@@ -68,7 +78,8 @@ inline input::When moving(const MotionKeys& m, const IncrementalSpec& i) {
           "a motion through time, not incremental.rule = \"static\""};
 }
 
-inline input::Keys relax_keys(RelaxSpec& r) {
+/// `incremental`: where outputs are accelerations of an implicit step.
+inline input::Keys relax_keys(RelaxSpec& r, const input::When& incremental) {
   using namespace input;
   const Range count{1, most_count, ""};
   return {
@@ -88,6 +99,19 @@ inline input::Keys relax_keys(RelaxSpec& r) {
       Key("relax.momentum", momentum_list(r.momentum),
           "m of `array.output = \"momentum\"`, sweep by sweep; the last one holds on")
           .allows("`\"fista\"`, or a list of numbers from 0 to 1"),
+      Key("relax.refinements", &r.refinements, {0, 1000, ""},
+          "how often an expansion's answer is corrected by its residual in double; the array gets new "
+          "biases, "
+          "and keeps its weights")
+          .counts({incremental.holds, incremental.beside, Otherwise::nothing_but_zero,
+                   "a probe's outputs are directions, which no correction makes truer"}),
+      Key("relax.reload", spec::choice(r.reload, reload_names),
+          "what a step sends to the array: all of its network, or biases alone beside the weights of a step "
+          "before")
+          .counts({incremental.holds, incremental.beside, Otherwise::refused}),
+      Key("relax.reload_every", &r.reload_every, {1, 1000, ""},
+          "steps for which weights stay, if corrections by them do not go astray before")
+          .counts({incremental.holds && r.reload == Reload::bias, "relax.reload = \"bias\""}),
   };
 }
 
@@ -126,7 +150,7 @@ inline input::Keys motion_keys(MotionKeys& m, ProbeSpec& p, IncrementalSpec& i, 
           "speed or inertia")
           .counts(incremental),
   };
-  for (const Key& key : relax_keys(r)) keys.push_back(key);
+  for (const Key& key : relax_keys(r, incremental)) keys.push_back(key);
   keys.push_back(
       Key("rival.tolerance", &v.tolerance, from_zero,
           "levels that are implicit integrators end a step with the iteration that moves no coordinate by "

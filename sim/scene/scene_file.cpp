@@ -22,6 +22,20 @@ void judge_momentum(const input::TomlSource& source, Inputs& inputs) {
                       "at most the " + std::to_string(room) + " of array.momentum_entries");
 }
 
+/// A correction stands on weights that say the same whatever the bias is, and on outputs between the bounds.
+void judge_corrections(const Inputs& inputs) {
+  const RelaxSpec& relax = inputs.scene.relax;
+  if (!relax.corrects()) return;
+  const char* const key = relax.refinements > 0 ? "relax.refinements" : "relax.reload";
+  const std::string found =
+      relax.refinements > 0 ? std::to_string(relax.refinements) : input::in_quotes("bias");
+  if (inputs.array.output == spec::Output::binary)
+    throw scene_error(inputs.scene, key, found, "none with array.output = \"binary\": signs have no digits");
+  if (inputs.array.normaliser == spec::Normaliser::prescaled)
+    throw scene_error(inputs.scene, key, found,
+                      "none with array.normaliser = \"prescaled\": its rows are divided by their bias too");
+}
+
 } // namespace
 
 Inputs read_inputs(const std::string& scene, const std::string& array,
@@ -41,6 +55,7 @@ Inputs read_inputs(const std::string& scene, const std::string& array,
   inputs.notes = input::without_effect(source, scene_keys(inputs.scene), scene_keys(fresh));
   inputs.array = input::read_array(array, of_array, inputs.notes);
   judge_momentum(source, inputs);
+  judge_corrections(inputs);
   return inputs;
 }
 

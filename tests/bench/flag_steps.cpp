@@ -25,7 +25,7 @@ void FlagSteps::begin() {
 }
 
 void FlagSteps::advance() {
-  const hm_solver solver{this, &FlagSteps::relax};
+  const hm_solver solver{this, &FlagSteps::relax, nullptr, nullptr};
   const PartSeconds before = seconds_;
   const double began = processor_seconds();
   hm_step_result result;

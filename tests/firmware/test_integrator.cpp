@@ -51,7 +51,7 @@ TEST_P(TwentySteps, FollowTheReference) {
   Dice dice(GetParam());
   Pair pair(random_scene_mesh(dice, dice.one_in(2)));
   hm_step_parameters motion = random_parameters(dice);
-  const hm_solver solver{nullptr, &relax_in_double};
+  const hm_solver solver{nullptr, &relax_in_double, nullptr, nullptr};
   const reference::Order order = number_order(pair);
   reference::StepParameters same = reference_motion(motion);
   std::vector<double> node_force;
@@ -134,7 +134,7 @@ TEST(Integrator, WalksAFormulationsFunctionsInOrder) {
       &Falling::finish};
   hm_step_parameters parameters{};
   parameters.formulation = &falling, parameters.expansions = 2;
-  const hm_solver solver{nullptr, &Falling::relax};
+  const hm_solver solver{nullptr, &Falling::relax, nullptr, nullptr};
   hm_step_result result;
   ASSERT_EQ(hm_step(&pair.firmware.mesh, &parameters, &solver, &moving.state, &result), HM_OK);
   EXPECT_EQ(Falling::calls(), "begin build relax build relax weigh finish at 4");
@@ -163,7 +163,7 @@ TEST(Integrator, ASolversErrorLeavesTheMotionAlone) {
   Moving moving(pair);
   for (double& v : moving.velocity) v = dice.unit();
   const Moving before = moving;
-  const hm_solver solver{nullptr, &refuse};
+  const hm_solver solver{nullptr, &refuse, nullptr, nullptr};
   hm_step_result result;
   EXPECT_EQ(hm_step(&pair.firmware.mesh, &motion, &solver, &moving.state, &result), HM_ERROR_STOPPED);
   expect_untouched(moving, before);
@@ -175,7 +175,7 @@ TEST(Integrator, ALostNodeIsToldBeforeAnyMoves) {
   Pair pair(random_scene_mesh(dice, false));
   const hm_mesh& mesh = pair.firmware.mesh;
   const hm_step_parameters motion = random_parameters(dice);
-  const hm_solver solver{nullptr, &relax_in_double};
+  const hm_solver solver{nullptr, &relax_in_double, nullptr, nullptr};
   for (std::uint32_t cell : {0u, mesh.cells / 2, mesh.cells - 1}) {
     Moving moving(pair);
     const std::uint32_t node = mesh.node_of_cell[cell];
@@ -203,7 +203,7 @@ TEST(Integrator, AnImplicitStepThatIsLostChangesNothing) {
     wild.friction = 1e308;
     moving.velocity[3 * pair.firmware.mesh.node_of_cell[0]] = 1e10;
     const Moving before = moving;
-    const hm_solver solver{nullptr, &relax_in_double};
+    const hm_solver solver{nullptr, &relax_in_double, nullptr, nullptr};
     hm_step_result result;
     ASSERT_EQ(hm_step(&pair.firmware.mesh, &wild, &solver, &moving.state, &result), HM_ERROR_LOST);
     expect_untouched(moving, before);

@@ -31,7 +31,7 @@ struct Told {
 class RelaxSum : public testing::Test {
  protected:
   int relax(Told& told) {
-    const hm_solver solver{&told, &Told::relax};
+    const hm_solver solver{&told, &Told::relax, nullptr, nullptr};
     return hm_relax(&solver, &two.mesh, &two.network, start.data(), 0.25, 9, &sum);
   }
   FirmwareMesh two{{{0, 1, 1, 1}}, {false, false}, 2};

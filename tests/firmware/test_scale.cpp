@@ -49,7 +49,7 @@ hm_step_parameters falling(const hm_formulation& formulation, double g) {
 
 /// A first step of that weight with that solver; the scale it came to.
 double step_scale(Coarse& coarse, const hm_step_parameters& m, Pair& pair, Moving& moving) {
-  const hm_solver solver{&coarse, &Coarse::relax};
+  const hm_solver solver{&coarse, &Coarse::relax, nullptr, nullptr};
   hm_step_result result;
   EXPECT_EQ(hm_step(&pair.firmware.mesh, &m, &solver, &moving.state, &result), HM_OK);
   EXPECT_EQ(result.relaxation.sweeps, static_cast<unsigned>(coarse.calls));

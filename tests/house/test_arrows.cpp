@@ -79,10 +79,11 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"bus", "registers", "doubles"},
                                             {"host_bus", "try"},
                                             {"network", "quantise"},
-                                            {"springs", "relax", "window"},
-                                            {"driver", "time_step"},
+                                            {"springs", "relax", "window", "spring_terms"},
+                                            {"driver", "time_step", "residual"},
                                             {"formulation"},
                                             {"incremental"},
+                                            {"refine"},
                                             {"probe", "implicit", "static"},
                                             {"integrator"}};
 

@@ -50,6 +50,9 @@ class SoftArray : public levels::ArrayPort {
  private:
   std::uint32_t* word_at(std::uint32_t address);
   int transfer(std::uint32_t address, std::uint32_t* words, std::uint32_t count, bool write);
+  void take_over(std::uint32_t most);
+  ArrayResult run_whole(std::uint32_t most);
+  void tell_end(const ArrayResult& end, std::uint32_t sweeps, std::uint64_t more_cycles);
   void run();
 
   ArrayJob job_; ///< a code a word, whatever the array's packing is
