@@ -129,9 +129,9 @@ TEST(Integrator, WalksAFormulationsFunctionsInOrder) {
   Moving moving(pair);
   moving.velocity = {1, 2, 3};
   Falling::calls().clear();
-  const hm_formulation falling{
-      "falling",       1, &Falling::begin, &Falling::build, &hm_expand, &Falling::weigh, &Falling::next,
-      &Falling::finish};
+  const hm_formulation falling{"falling",       1,       &Falling::begin, &Falling::build,
+                               &hm_expand,      nullptr, &Falling::weigh, &Falling::next,
+                               &Falling::finish};
   hm_step_parameters parameters{};
   parameters.formulation = &falling, parameters.expansions = 2;
   const hm_solver solver{nullptr, &Falling::relax, nullptr, nullptr};

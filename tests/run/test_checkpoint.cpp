@@ -32,8 +32,8 @@ class CheckpointFile : public ::testing::Test {
     c.array = "name = \"y\"\n";
     c.ranges = {{"weight", {}, -7, 9}, {"state", {}, std::numeric_limits<std::int64_t>::min(), 0}};
     c.streams = {{"positions.npy", {1234, 0xfedcba9876543210}}, {"steps.csv", {0, 1}}};
-    c.state = {5,    {0.1, -0.0, 1e-320}, {1 / 3.0, INFINITY, 3}, {4, 5, std::nan("7")}, {-1, 2}, {7, 8, 9},
-               {0.5}};
+    c.state = {5,     {0.1, -0.0, 1e-320}, {1 / 3.0, INFINITY, 3}, {4, 5, std::nan("7")}, {-1, 2}, {7, 8, 9},
+               {0.5}, {-14, 0.25}};
   }
   Checkpoint again() const {
     run::write_checkpoint(file, c);

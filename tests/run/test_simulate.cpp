@@ -25,7 +25,7 @@ class ToldMotion : public levels::Mover {
     return row;
   }
   const std::vector<double>& positions() const override { return position_; }
-  levels::StepState state() const override { return {done, position_, {}, {}, {}, {}, {}}; }
+  levels::StepState state() const override { return {done, position_, {}, {}, {}, {}, {}, {}}; }
   void restore(const levels::StepState& state, const std::vector<levels::SignalRange>&) override {
     done = state.step;
   }

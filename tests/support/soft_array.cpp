@@ -52,10 +52,10 @@ int SoftArray::transfer(std::uint32_t address, std::uint32_t* words, std::uint32
 
 /// As START finds it.
 void SoftArray::take_over(std::uint32_t most) {
-  const std::uint32_t stop = registers_[HM_REG_STOP];
+  const std::uint32_t by = registers_[HM_REG_STOP];
   job_.threshold = registers_[HM_REG_THRESHOLD];
   job_.max_sweeps = most;
-  job_.rule = {HM_FIELD(stop, STOP_BY_SUM) != 0, static_cast<int>(HM_FIELD(stop, STOP_SHARE)),
+  job_.rule = {HM_FIELD(by, STOP_BY_SUM) != 0, static_cast<int>(HM_FIELD(by, STOP_SHARE)),
                std::uint64_t{registers_[HM_REG_SUM_THRESHOLD_HI]} << 32 |
                    registers_[HM_REG_SUM_THRESHOLD_LO]};
 }

@@ -1,5 +1,5 @@
 // The table of m as the value of a key: a list of numbers, or the word for the sequence that it stands for.
-#include "sim/scene/motion_keys.h"
+#include "sim/scene/relax_keys.h"
 
 namespace hopmesh::scene {
 
