@@ -3,7 +3,7 @@
 
 #include "firmware/bus.h"
 #include "firmware/doubles.h"
-#include "firmware/spring_terms.h"
+#include "firmware/network_terms.h"
 
 uint32_t hm_row_length(const hm_mesh* mesh, uint32_t cell) {
   return mesh->components * (1 + mesh->first_link[cell + 1] - mesh->first_link[cell]);

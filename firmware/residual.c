@@ -1,7 +1,7 @@
 /* What is left to pull at the outputs of a step's network, spring by spring: no weight is asked. */
 #include "firmware/residual.h"
 
-#include "firmware/spring_terms.h"
+#include "firmware/network_terms.h"
 
 /* By how much the outputs of a spring's ends have come apart since V0; pinned nodes have none. */
 static inline double parted(const double* V, const double* V0, uint32_t i, uint32_t j, uint32_t q,

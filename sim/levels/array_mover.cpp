@@ -123,6 +123,16 @@ void ArrayMover::put_kept_back() {
   levels::check(hm_driver_restore(&driver_, &mesh_.firmware(), &network, static_cast<int>(all[4])));
 }
 
+namespace {
+
+void tell_corrections(const hm_refinement& made, StepRow& row) {
+  row.refinements = made.corrections;
+  row.refused = made.refused;
+  row.residual = made.residual;
+}
+
+} // namespace
+
 StepRow ArrayMover::advance() {
   if (!driver_.line.bus) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
@@ -154,9 +164,7 @@ StepRow ArrayMover::advance() {
   row.cycles = result.relaxation.cycles;
   row.converged = result.relaxation.converged;
   look_back(row);
-  row.refinements = result.refinement.corrections;
-  row.refused = result.refinement.refused;
-  if (relax_.corrects()) row.residual = result.refinement.residual;
+  if (relax_.corrects()) tell_corrections(result.refinement, row);
   row.clipped = driver_.clipped;
   row.vanished = driver_.vanished;
   row.bus_cycles = bus_cycles() - bus_before;

@@ -79,7 +79,7 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"bus", "registers", "doubles"},
                                             {"host_bus", "try"},
                                             {"network", "quantise"},
-                                            {"springs", "relax", "window", "spring_terms"},
+                                            {"springs", "relax", "window"},
                                             {"driver", "time_step", "residual"},
                                             {"formulation"},
                                             {"incremental"},
@@ -156,10 +156,12 @@ void judge_include(const TreeFile& file, const std::string& included) {
       << file.path << " includes " << included;
 }
 
-/// Header and source; the driver's, which is long, has further parts.
+/// Header and source; those of driver and network, which are long, have further parts.
 std::string unit_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  return starts_with(stem, "driver_") ? "driver" : stem;
+  for (const char* const unit : {"driver", "network"})
+    if (starts_with(stem, std::string(unit) + '_')) return unit;
+  return stem;
 }
 
 std::size_t firmware_floor(const std::string& unit) {

@@ -1,7 +1,7 @@
 /* What one spring adds to a network's weights and bias (docs/method/theory.md, section 2): C only, for those
    who gather it. */
-#ifndef HOPMESH_FIRMWARE_SPRING_TERMS_H
-#define HOPMESH_FIRMWARE_SPRING_TERMS_H
+#ifndef HOPMESH_FIRMWARE_NETWORK_TERMS_H
+#define HOPMESH_FIRMWARE_NETWORK_TERMS_H
 
 #include "firmware/doubles.h"
 #include "firmware/network.h"
