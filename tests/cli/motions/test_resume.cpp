@@ -72,6 +72,20 @@ TEST_F(CliResume, AnImplicitMotionGoesOnToTheSameBitsToo) {
   }
 }
 
+// The array has weights of a step before, which a resumed run puts back.
+TEST_F(CliResume, WeightsThatStayAreThereAgain) {
+  const std::string scene = row +
+                            " --level engine --no-check --set motion.formulation=incremental"
+                            " --set array.output=momentum --set array.schedule=synchronous"
+                            " --set relax.refinements=1 --set relax.reload=bias --set relax.reload_every=4";
+  const fs::path unbroken = results_of(scene + " --steps 70", "u");
+  ended("run " + scene + " --steps 60000 --out r --checkpoint-every 9", 9, SIGINT);
+  const Finished f = hopmesh("run --resume r --steps 70");
+  if (f.err.find("--steps: found 70") != std::string::npos) GTEST_SKIP() << "a machine too fast for this";
+  EXPECT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_EQ(difference(unbroken, at("r")), "");
+}
+
 TEST_F(CliResume, CtrlCWithoutCheckpointsLeavesOneToo) {
   around.terminal = true;
   Program program(words_of("run flag-400 --level systemc --no-check --out r"), around);
