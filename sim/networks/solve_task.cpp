@@ -50,8 +50,17 @@ void check_momentum(const spec::ArraySpec& array, std::size_t entries) {
                                  " of array.momentum_entries");
 }
 
-// A correction is a network with the same weights and other biases.
-void check_refinements(const spec::ArraySpec& array) {
+bool is_symmetric(const GivenNetwork& network) {
+  const auto& W = network.network().W;
+  std::decay_t<decltype(W)> mirrored = W.transpose();
+  return (W - mirrored).norm() == 0;
+}
+
+// A correction is a network with the same weights and other biases, taken where the energy falls.
+void check_refinements(const spec::ArraySpec& array, const GivenNetwork& network) {
+  if (!is_symmetric(network))
+    throw input::input_error("", 0, "--refinements", "a W that is not symmetric",
+                             "a symmetric one: no energy tells whether a correction is good");
   if (array.output == spec::Output::binary)
     throw input::input_error("", 0, "--refinements", "outputs that are signs",
                              "array.output of real outputs: no correction makes a sign truer");
@@ -87,7 +96,7 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
   const GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), file);
   check_momentum(array, options.momentum.size());
-  if (refinements > 0) check_refinements(array);
+  if (refinements > 0) check_refinements(array, network);
   if (!folder.empty()) files::check_writable(folder, network.neurons() * 32);
   std::optional<files::FolderLock> lock; // before the work: two of them would mix their files
   if (!folder.empty()) lock.emplace(folder);
@@ -107,6 +116,8 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
   if (!folder.empty()) write_solution(folder, label, network, solution);
   TaskEnd end{text_of(label, network, solution), solution.rest.converged, {}};
   levels::tell_of_fold(array, network.topology(), end.notes);
+  if (spec::has_momentum(array) && !is_symmetric(network))
+    end.notes.emplace_back("W is not symmetric: with momentum no proof says that outputs come to rest");
   return end;
 }
 

@@ -18,7 +18,7 @@ double largest_of(const VectorXd& values) {
   return values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff();
 }
 
-bool is_held(double V, double s) {
+bool pushed_out(double V, double s) {
   return (V >= 1 && s > 0) || (V <= -1 && s < 0);
 }
 
@@ -41,10 +41,10 @@ double Corrections::residual(const VectorXd& V) const {
 // lose what it does to them there: to them it has not moved.
 void Corrections::hold(const VectorXd& V, const VectorXd& s, VectorXd& bias, VectorXd& output) const {
   for (Index i = 0; i < V.size(); ++i)
-    if (is_held(V[i], s[i]))
+    if (pushed_out(V[i], s[i]))
       for (reference::Matrix::InnerIterator w(network_.W, i); w; ++w) bias[w.col()] -= w.value();
   for (Index i = 0; i < V.size(); ++i)
-    if (is_held(V[i], s[i])) {
+    if (pushed_out(V[i], s[i])) {
       double sum = 0;
       for (reference::Matrix::InnerIterator w(network_.W, i); w; ++w) sum += std::abs(w.value());
       bias[i] = std::min(2 * sum, room_);
@@ -62,7 +62,7 @@ VectorXd Corrections::change_for(const VectorXd& V, const VectorXd& s) {
     hold(V, s, bias, output);
     VectorXd change = ask_(bias, output);
     for (Index i = 0; i < V.size(); ++i)
-      if (is_held(V[i], s[i])) change[i] = 0;
+      if (pushed_out(V[i], s[i])) change[i] = 0;
     if (largest_of(change) > clipped_change && k < most_retries) continue;
     softness_ = unit * largest_of(change) / left;
     return unit * change;

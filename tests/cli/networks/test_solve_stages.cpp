@@ -70,6 +70,22 @@ TEST_F(CliSolveStages, MistakesOfCorrectionsAreToldInOneLine) {
           "--refinements: found array.normaliser = prescaled");
 }
 
+// Allowed; what is lost is told in a line.
+TEST_F(CliSolveStages, MomentumTakesAnAsymmetricWAndSaysThatNoProofHolds) {
+  write_text(at("W.mtx"), "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 -1\n2 2 -1\n1 2 0.25\n");
+  write_text(at("I.mtx"), "%%MatrixMarket matrix array real general\n2 1\n0.5\n0.25\n");
+  const std::string momentum =
+      "solve W.mtx I.mtx --asymmetric --rule momentum --set array.schedule=synchronous ";
+  for (const std::string level : {"reference", "engine"}) {
+    const Finished f = hopmesh(momentum + "--level " + level);
+    EXPECT_EQ(f.exit_code, 0) << f.err;
+    EXPECT_THAT(f.err, ::testing::HasSubstr("W is not symmetric: with momentum no proof says"));
+  }
+  EXPECT_THAT(hopmesh("solve W.mtx I.mtx --asymmetric").err,
+              ::testing::Not(::testing::HasSubstr("no proof")));
+  refused("solve W.mtx I.mtx --asymmetric --refinements 1", "--refinements: found a W that is not symmetric");
+}
+
 TEST_F(CliSolveStages, MistakesOfStagesAreToldInOneLine) {
   refused("solve two-neurons --stop never", "--stop: found never, expected change, sum");
   refused("solve two-neurons --share 0.75", "--share: found 0.75, expected a number from 0 to 0.5");
