@@ -19,19 +19,6 @@ struct HashFigure {
 using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*,
                                 std::optional<double> StepRow::*, HashFigure, double ReferenceError::*>;
 
-/// What a column is about. Statistics and report show its totals and its curve only where a run has that.
-enum class Subject {
-  motion,
-  relaxation, ///< of a network
-  rest,       ///< how near it came
-  glance,     ///< how near the host sees at least that it did not come
-  correction, ///< of answers by their residuals
-  clock,      ///< of a simulated array
-  network,    ///< as loaded into an array
-  reference,  ///< the array's answers against it
-  certainty   ///< what is known of them without a rest
-};
-
 struct StepColumn {
   constexpr StepColumn(const char* called, const char* measured_in, const char* meaning, StepFigure of,
                        Subject about, Curve drawn = {}, Total first = {}, Total second = {})
