@@ -184,7 +184,8 @@ StepRow ArrayMover::advance() {
   return row;
 }
 
-static_assert(LeftOver::steps_a_look == 8 && ReferenceCheck::steps_a_proof == 8); // step_columns.h tells people: every eighth step
+// step_columns.h tells people: every eighth step.
+static_assert(LeftOver::steps_a_look == 8 && ReferenceCheck::steps_a_proof == 8);
 
 // Signs have no way down but their own rule.
 void ArrayMover::look_back(StepRow& row) {
