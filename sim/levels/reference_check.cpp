@@ -3,6 +3,7 @@
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/eigen_vectors.h"
 #include "sim/levels/left_over.h"
+#include "sim/levels/networks/told_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ reference::StepParameters motion_for(const scene::Scene& scene, const spec::Arra
 
 ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array)
     : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
-      state_(reference::initial_state(mesh.mesh())) {}
+      state_(reference::initial_state(mesh.mesh())), array_(array) {}
 
 void ReferenceCheck::begin(const StepState& state, const double* node_force) {
   state_ = state_of(state);
@@ -116,10 +117,12 @@ reference::Network ReferenceCheck::expanded(const std::vector<double>& start, do
 ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<double>& start, double scale,
                                      const hm_relaxation& last) {
   reference::Answer answer;
-  const reference::Network network = expanded(start, scale, answer.start);
+  network_ = expanded(start, scale, answer.start);
+  const reference::Network& network = network_;
   const std::size_t neurons = start.size();
   answer.V = by_node(std::vector<double>(built.output, built.output + neurons));
   answer.sweeps = last.sweeps;
+  V_ = answer.V;
   const reference::BlockSweeps& twin = laid_out(network);
   const Swept swept = [&](const Vector& from, std::uint32_t sweeps) {
     if (motion_.rule.neuron == reference::Neuron::modified) return twin.swept(from, sweeps);
@@ -142,6 +145,28 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.network = network_difference(network, built);
   if (!last.converged) error.alternation = alternation_of(swept, answer.V);
   return error;
+}
+
+RunRules rules_of(const reference::StepParameters& motion) {
+  RunRules rules{motion.threshold, motion.share};
+  const auto& m = motion.rule.momentum;
+  rules.largest_momentum = m.empty() ? 0 : *std::max_element(m.begin(), m.end());
+  return rules;
+}
+
+// What corrections added to V is no code, and no format bounds it.
+void ReferenceCheck::certify(StepRow& row) const {
+  const std::size_t neurons = mesh_.cells() * mesh_.components();
+  const bool definite = motion_.formulation->increment != nullptr;
+  if (row.step % steps_a_proof != 0 || !definite || neurons > most_proven) return;
+  const auto told = told_error(network_, V_);
+  if (!told) return;
+  row.told_error = told->rms(neurons);
+  if (row.residual || !row.converged || row.clipped > 0) return;
+  RunRules rules = rules_of(motion_);
+  rules.loads = true;
+  const auto bound = ErrorBounds(network_, order_, false).of(array_, rules);
+  if (bound) row.error_bound = bound->norm;
 }
 
 const reference::BlockSweeps& ReferenceCheck::laid_out(const reference::Network& network) {

@@ -3,6 +3,7 @@
 
 #include "firmware/relax.h"
 #include "sim/levels/mover.h"
+#include "sim/levels/networks/error_bound.h"
 #include "sim/reference/block_sweeps.h"
 #include "sim/reference/judgement.h"
 
@@ -15,6 +16,9 @@ reference::Order order_for(const BuiltMesh& mesh, spec::Schedule schedule);
 reference::NeuronRule rule_of(const spec::ArraySpec& array, const std::vector<double>& momentum = {});
 /// A scene's motion as the output stage of an array makes it.
 reference::StepParameters motion_for(const scene::Scene& scene, const spec::ArraySpec& array);
+
+/// How a motion's relaxations end, for ErrorBounds.
+RunRules rules_of(const reference::StepParameters& motion);
 
 /// Where a step starts from, as the reference has it; its V, numbered over all nodes, stays empty.
 reference::State state_of(const StepState& state);
@@ -39,6 +43,12 @@ class ReferenceCheck {
   ReferenceError judge(const hm_network& network, const std::vector<double>& start, double scale,
                        const hm_relaxation& last);
 
+  /// The figures that need no rest: told_error and error_bound of a row whose step was judged last, where the
+  /// network is definite and not too large.
+  void certify(StepRow& row) const;
+  static constexpr std::uint64_t steps_a_proof = 8;  ///< as LeftOver::steps_a_look
+  static constexpr std::size_t most_proven = 30'000; ///< neurons
+
  private:
   reference::Vector by_node(const std::vector<double>& by_cell) const;
   /// That expansion by the reference, from its own prediction; `start` becomes its point.
@@ -51,6 +61,9 @@ class ReferenceCheck {
   reference::StepParameters motion_;
   const reference::Order order_;
   reference::State state_;
+  const spec::ArraySpec array_;
+  reference::Network network_;                    ///< of the last step,
+  reference::Vector V_;                           ///< and the array's answer to it
   std::optional<reference::BlockNetwork> blocks_; ///< the last step's network
   std::optional<reference::BlockSweeps> sweeps_;  ///< of it
   std::vector<std::ptrdiff_t>

@@ -28,7 +28,8 @@ enum class Subject {
   correction, ///< of answers by their residuals
   clock,      ///< of a simulated array
   network,    ///< as loaded into an array
-  reference   ///< the array's answers against it
+  reference,  ///< the array's answers against it
+  certainty   ///< what is known of them without a rest
 };
 
 struct StepColumn {
@@ -137,6 +138,18 @@ inline constexpr StepColumn all_step_columns[] = {
         &StepRow::residual, Subject::correction, Curve{"residual at the end of a step"},
         Total{Summary::median, "median_residual", "residual of a step", "{:.2g} (median)"},
         Total{Summary::largest, "largest_residual", "largest residual", "{:.2g}"}),
+    StepColumn("told_error", "",
+               "output_error_rms as a single solve with the residual tells it, without a rest (definite "
+               "networks, every eighth step); an estimate where outputs are held at bounds",
+               &StepRow::told_error, Subject::certainty, {},
+               Total{Summary::median, "median_told_error", "output error as one solve tells it",
+                     "{:.3g} rms (median)"}),
+    StepColumn("error_bound", "",
+               "more than output_error_rms cannot be, as formats and the stop say beforehand (definite "
+               "networks, every eighth step; not where answers are corrected)",
+               &StepRow::error_bound, Subject::certainty, {},
+               Total{Summary::median, "median_error_bound", "output error is at most, beforehand",
+                     "{:.3g} rms (median)"}),
     StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
                HashFigure{&StepRow::hash}, Subject::motion),
 };

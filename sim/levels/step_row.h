@@ -32,6 +32,8 @@ struct StepRow {
   std::optional<double> residual;             ///< where corrections were asked for
   std::optional<double> fall_left;            ///< where the reference was asked or answers itself
   std::optional<double> fall_seen;            ///< of it, so much at least: LeftOver
+  std::optional<double> told_error;           ///< rms of V - V_rest without a rest: networks/told_error.h
+  std::optional<double> error_bound;          ///< beforehand: networks/error_bound.h
   std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;

@@ -33,6 +33,13 @@ Solution solve(const GivenNetwork& network, NetworkLevel& level, bool outputs_de
   return solution;
 }
 
+void refine(const GivenNetwork& network, NetworkLevel& level, std::uint32_t most, Solution& solution) {
+  solution.corrected = level.refine(most);
+  solution.V = level.outputs();
+  solution.energy = network.energy(solution.V);
+  solution.kkt = network.kkt_violation(solution.V);
+}
+
 void write_sweeps(const std::filesystem::path& file, const GivenNetwork& network, NetworkLevel& level,
                   const Solution& solution, const std::atomic<bool>& stop) {
   files::CsvWriter table(file, {"sweep", "energy", "loaded_energy", "largest_change"});

@@ -28,6 +28,10 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
   if (s.rest.cycles > 0) text += fmt::format(", {} cycles", input::grouped(s.rest.cycles));
   text += fmt::format("\nEnergy {:.9g}, at the start {:.9g}; KKT residual {:.3g}\n", s.energy,
                       s.energy_at_start, s.kkt);
+  if (const auto& c = s.corrected)
+    text += fmt::format("{} in {} more, {} refused; residual {:.3g}\n",
+                        input::with_noun(c->corrections, "correction"), input::with_noun(c->sweeps, "sweep"),
+                        c->refused, c->residual);
   if (s.clipped > 0)
     text += fmt::format("{} weights and biases did not fit their format\n", input::grouped(s.clipped));
   if (s.vanished > 0)
@@ -41,22 +45,28 @@ std::string text_of(const SolveLabel& label, const GivenNetwork& network, const 
 void write_solution(const std::filesystem::path& folder, const SolveLabel& label, const GivenNetwork& network,
                     const Solution& s) {
   files::write_vector(folder / "V.mtx", levels::values_of(s.V));
-  const nlohmann::ordered_json summary{{"network", label.network},
-                                       {"level", label.level},
-                                       {"rule", label.rule},
-                                       {"schedule", label.schedule},
-                                       {"neurons", network.neurons()},
-                                       {"weights", network.weights()},
-                                       {"sweeps", s.rest.sweeps},
-                                       {"converged", s.rest.converged},
-                                       {"limit_cycle", s.limit_cycle},
-                                       {"cycles", s.rest.cycles},
-                                       {"clipped", s.clipped},
-                                       {"vanished", s.vanished},
-                                       {"energy_at_start", s.energy_at_start},
-                                       {"energy", s.energy},
-                                       {"kkt_residual", s.kkt},
-                                       {"verdict", label.verdict}};
+  nlohmann::ordered_json summary{{"network", label.network},
+                                 {"level", label.level},
+                                 {"rule", label.rule},
+                                 {"schedule", label.schedule},
+                                 {"neurons", network.neurons()},
+                                 {"weights", network.weights()},
+                                 {"sweeps", s.rest.sweeps},
+                                 {"converged", s.rest.converged},
+                                 {"limit_cycle", s.limit_cycle},
+                                 {"cycles", s.rest.cycles},
+                                 {"clipped", s.clipped},
+                                 {"vanished", s.vanished},
+                                 {"energy_at_start", s.energy_at_start},
+                                 {"energy", s.energy},
+                                 {"kkt_residual", s.kkt},
+                                 {"verdict", label.verdict}};
+  if (const auto& c = s.corrected)
+    summary["corrections"] = {{"kept", c->corrections},
+                              {"refused", c->refused},
+                              {"sweeps", c->sweeps},
+                              {"cycles", c->cycles},
+                              {"residual", c->residual}};
   files::write_file(folder / "summary.json",
                     summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
 }

@@ -50,6 +50,25 @@ void check_momentum(const spec::ArraySpec& array, std::size_t entries) {
                                  " of array.momentum_entries");
 }
 
+bool is_symmetric(const GivenNetwork& network) {
+  const auto& W = network.network().W;
+  std::decay_t<decltype(W)> mirrored = W.transpose();
+  return (W - mirrored).norm() == 0;
+}
+
+// A correction is a network with the same weights and other biases, taken where the energy falls.
+void check_refinements(const spec::ArraySpec& array, const GivenNetwork& network) {
+  if (!is_symmetric(network))
+    throw input::input_error("", 0, "--refinements", "a W that is not symmetric",
+                             "a symmetric one: no energy tells whether a correction is good");
+  if (array.output == spec::Output::binary)
+    throw input::input_error("", 0, "--refinements", "outputs that are signs",
+                             "array.output of real outputs: no correction makes a sign truer");
+  if (array.normaliser == spec::Normaliser::prescaled)
+    throw input::input_error("", 0, "--refinements", "array.normaliser = prescaled",
+                             "divider or reciprocal: prescaled weights know the biases");
+}
+
 } // namespace
 
 SolveTask read_task(const NetworkFiles& files, std::int64_t seed) {
@@ -73,10 +92,11 @@ void apply_rule(const std::string& rule, bool is_set, const SolveTask& task, spe
 
 TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const std::string& file,
                    const levels::Level& row, const levels::RelaxOptions& options,
-                   const std::filesystem::path& folder) {
+                   const std::filesystem::path& folder, std::uint32_t refinements) {
   const GivenNetwork network(task.data, array.output == spec::Output::binary ? 1.0 : 0.0);
   check_array(array, network.topology(), file);
   check_momentum(array, options.momentum.size());
+  if (refinements > 0) check_refinements(array, network);
   if (!folder.empty()) files::check_writable(folder, network.neurons() * 32);
   std::optional<files::FolderLock> lock; // before the work: two of them would mix their files
   if (!folder.empty()) lock.emplace(folder);
@@ -87,16 +107,17 @@ TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const st
   if (row.has_bus()) port = row.make_port(array, network.topology(), request);
   const auto level =
       port ? array_level(network, array, options, *port) : reference_level(network, array, options);
-  const Solution solution = solve(network, *level, !spec::has_momentum(array));
+  Solution solution = solve(network, *level, !spec::has_momentum(array));
   SolveLabel label{task.name, row.name, std::string(spec::name_of(array.output)),
                    std::string(spec::name_of(array.schedule)), ""};
+  if (!folder.empty()) write_sweeps(folder / "solve.csv", network, *level, solution, levels::stop_requested);
+  if (refinements > 0) refine(network, *level, refinements, solution);
   if (task.verdict) label.verdict = task.verdict({solution.V.data(), solution.V.data() + solution.V.size()});
-  if (!folder.empty()) {
-    write_sweeps(folder / "solve.csv", network, *level, solution, levels::stop_requested);
-    write_solution(folder, label, network, solution);
-  }
+  if (!folder.empty()) write_solution(folder, label, network, solution);
   TaskEnd end{text_of(label, network, solution), solution.rest.converged, {}};
   levels::tell_of_fold(array, network.topology(), end.notes);
+  if (spec::has_momentum(array) && !is_symmetric(network))
+    end.notes.emplace_back("W is not symmetric: with momentum no proof says that outputs come to rest");
   return end;
 }
 

@@ -31,11 +31,11 @@ struct TaskEnd {
   bool at_rest;
   std::vector<std::string> notes; ///< about the array and this network: a line each
 };
-/// Relaxes it at a level; into `folder`, unless that is empty, go V.mtx, solve.csv and summary.json. Throws
-/// input::InputError where the array (of `file`) cannot have the network, levels::Stopped where the user
-/// stops an array, and files::WriteError.
+/// Relaxes it at a level and corrects the answer by its residual, at most so often; into `folder`, unless
+/// that is empty, go V.mtx, solve.csv and summary.json. Throws input::InputError where the array (of `file`)
+/// cannot have the network, levels::Stopped where the user stops an array, and files::WriteError.
 TaskEnd solve_task(const SolveTask& task, const spec::ArraySpec& array, const std::string& file,
                    const levels::Level& level, const levels::RelaxOptions& options,
-                   const std::filesystem::path& folder);
+                   const std::filesystem::path& folder, std::uint32_t refinements);
 
 } // namespace hopmesh::networks

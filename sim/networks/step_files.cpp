@@ -2,6 +2,9 @@
 
 #include "sim/files/matrix_market.h"
 #include "sim/files/npy.h"
+#include "sim/networks/certainty.h"
+
+#include <fmt/format.h>
 
 namespace hopmesh::networks {
 
@@ -26,6 +29,20 @@ void write_step_files(const std::filesystem::path& folder, const levels::Referen
   const auto C = values(step.predicted);
   for (std::size_t node = 0; node < C.size() / 3; ++node) predicted.append(&C[3 * node]);
   predicted.commit();
+}
+
+std::string certain_text(const levels::ReferenceMover& motion, const levels::Prepared& p) {
+  if (!motion.formulation().increment) return "";
+  const reference::Step& step = motion.last_step();
+  const spec::ArraySpec& array = p.inputs.array;
+  const std::vector<std::uint32_t> component(static_cast<std::size_t>(step.V0.size()), 0);
+  const solvers::Problem problem{step.network.W, step.network.I, step.V0, {}, component};
+  const levels::ErrorBounds bounds(step.network, levels::order_for(*p.mesh, array.schedule), true);
+  levels::RunRules rules = levels::rules_of(levels::motion_for(p.inputs.scene, array));
+  rules.loads = true;
+  const Certainty certainty = certainty_of(problem, step.relaxation.V, bounds, array, rules);
+  return fmt::format("V is {}.\nOn the array {}, stopped by the scene's rule: {}.\n", told_text(certainty),
+                     array.name, bound_text(certainty.bound));
 }
 
 } // namespace hopmesh::networks

@@ -194,6 +194,8 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
     add_totals(json, Subject::network, rows);
     json["against_reference"] = nullptr;
     if (is_judged(rows)) add_totals(json["against_reference"], Subject::reference, rows);
+    if (!rows.empty() && rows.front().told_error)
+      add_totals(json["against_reference"], Subject::certainty, rows);
     for (const levels::SignalRange& r : motion.ranges())
       json["ranges"].push_back({{"signal", r.signal},
                                 {"format", r.format.text()},

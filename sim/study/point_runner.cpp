@@ -1,6 +1,7 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/levels/multiplies.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
@@ -22,20 +23,12 @@ std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
   return all;
 }
 
-// A multiplication an input, one for R u (none for a sign), and one by the reciprocal where there is one.
-std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topology& t) {
-  std::uint64_t count = 0;
-  const std::uint64_t more = (array.output == spec::Output::modified) + spec::has_reciprocal(array);
-  for (std::size_t c = 0; c < t.cells(); ++c) count += t.neurons_per_cell * (t.taps(c) + more);
-  return count;
-}
-
 void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRow& row) {
   const machine::Timeline timeline = machine::timeline_of(array, t, {row.cycles, row.bus_cycles, row.sweeps});
   row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
   row.utilisation = timeline.utilisation();
   row.utilisation_with_bus = timeline.utilisation_with_bus();
-  row.multiplies = row.sweeps * multiplies_a_sweep(array, t);
+  row.multiplies = row.sweeps * levels::multiplies_a_sweep(array, t);
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);

@@ -73,6 +73,29 @@ INSTANTIATE_TEST_SUITE_P(Of, StopBySum,
                            return name + "_" + stages[std::get<1>(made.param)].name;
                          });
 
+/// On the engine, in words that can come near a rest: links as fine as states, so a place of theirs is worth
+/// little.
+const Overrides fine_links{"formats.link=fixed<24,2,SC_RND,SC_SAT>",
+                           "formats.drive=fixed<24,2,SC_RND,SC_SAT>", "relax.stop=sum", "relax.share=1e-4",
+                           "relax.max_sweeps=20000"};
+
+TEST_P(StopBySum, restsOnTheEngine) {
+  if (comes_to_bounds_without_end()) GTEST_SKIP() << "no share is ever met there";
+  const auto [scene, stage] = GetParam();
+  const levels::Prepared p = levels::prepare(scene, "guarded", joined(fine_links, stages[stage].overrides));
+  const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p, true);
+  std::uint64_t held = 0;
+  for (int step = 0; step < 3; ++step) {
+    const levels::StepRow row = level.mover->advance();
+    EXPECT_TRUE(row.converged) << "step " << step;
+    EXPECT_LT(*row.fall_left, 1e-3) << "step " << step;
+    held += row.saturated;
+  }
+  if (holds_outputs()) {
+    EXPECT_GT(held, 0u);
+  }
+}
+
 // An output that a bound will hold comes there by R u, which ends before R does: a last place of a double is
 // left for ever. So it stands there from half a place of the link on, where others see it there.
 TEST(ThePapersStage, comesNearABoundAndCountsAsThere) {

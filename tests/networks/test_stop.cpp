@@ -1,6 +1,7 @@
 // Boxed problems by every output stage, stopped by the inputs of neurons that may still
 // move: at the KKT points, whatever the bounds hold.
 #include "rtl_model/spec/presets.h"
+#include "sim/levels/level.h"
 #include "sim/levels/networks/network_level.h"
 #include "sim/networks/problems/problem.h"
 #include "tests/support/box_solver.h"
@@ -35,6 +36,24 @@ TEST_P(StoppedProblem, isAtRestInDouble) {
     EXPECT_NEAR(network.energy(level->outputs()), answer.energy, 1e-9 * std::abs(answer.energy));
   }
   EXPECT_TRUE(std::any_of(answer.V.begin(), answer.V.end(), [](double V) { return std::abs(V) == 1; }));
+}
+
+TEST_P(StoppedProblem, isAtRestOnTheEngine) {
+  const problems::Problem p = problems::make(GetParam());
+  const levels::GivenNetwork network({p.W, p.bias, p.start}, 0);
+  const BoxAnswer answer = least_on_box(p.W, p.bias, p.start);
+  for (const auto output : {spec::Output::projected, spec::Output::momentum}) {
+    SCOPED_TRACE(spec::name_of(output));
+    spec::ArraySpec array = array_with(output);
+    array.formats.link = array.formats.drive = array.formats.state;
+    const auto port = levels::default_level().make_port(array, network.topology(), {});
+    const auto level = levels::array_level(network, array, {2, 100'000, 0x1p-13}, *port);
+    EXPECT_TRUE(level->relax().converged);
+    EXPECT_LT(network.kkt_violation(level->outputs()), 1e-3);
+    EXPECT_NEAR(network.energy(level->outputs()), answer.energy, 1e-4 * std::abs(answer.energy));
+    const Eigen::VectorXd& V = level->outputs();
+    EXPECT_TRUE(std::any_of(V.begin(), V.end(), [](double at) { return std::abs(at) == 1; }));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, StoppedProblem,

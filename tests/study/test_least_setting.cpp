@@ -154,5 +154,24 @@ TEST(LeastSetting, KeepsItsPromisesOnRoughTests) {
   }
 }
 
+// A good guess spares everything wider, and a bad one costs a trial: the answer is no worse.
+TEST(LeastSetting, beginsWhereItIsTold) {
+  for (const int guess : {2, 9, 14, 30}) {
+    const auto error = [](const Setting& s) { return std::exp2(-s[0]) + std::exp2(-s[1]); };
+    Asked plain{error, 0.02, {1, 2}, {}}, told{error, 0.02, {1, 2}, {}};
+    LeastSetting first(2, not_below(1), plain.oracle()), second(2, not_below(1), told.oracle());
+    const auto least = first.from({30, 30}), again = second.from({30, 30}, guess);
+    ASSERT_TRUE(least && again);
+    EXPECT_EQ(*least, *again) << guess;
+    int widest = 0;
+    for (const auto& [setting, times] : told.times) widest = std::max(widest, setting[0]);
+    if (guess == 9 || guess == 14) {
+      EXPECT_EQ(widest, guess);
+    } else {
+      EXPECT_EQ(widest, 30);
+    }
+  }
+}
+
 } // namespace
 } // namespace hopmesh::tests

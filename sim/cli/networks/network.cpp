@@ -37,6 +37,7 @@ int network(const NetworkOptions& o) {
              o.out);
   if (motion.formulation().increment)
     fmt::print("An output of 1 is a change of acceleration of {} m/s^2.\n", motion.last_step().scale);
+  fmt::print("{}", networks::certain_text(motion, p));
   return done;
 }
 

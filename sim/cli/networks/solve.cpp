@@ -14,7 +14,7 @@ struct SolveRequest {
   networks::NetworkFiles files;
   std::string rule, level = levels::default_level().name, array, out;
   std::vector<std::string> overrides;
-  std::int64_t sweeps = 10'000, seed = 0;
+  std::int64_t sweeps = 10'000, seed = 0, refinements = 0;
   double threshold = 1e-4, share = 0x1p-13;
   std::string stop = "change";
   std::vector<double> momentum;
@@ -54,7 +54,8 @@ int solve(const SolveRequest& o) {
   const bool is_set = std::any_of(overrides.begin(), overrides.end(), sets_output);
   networks::apply_rule(o.rule, is_set, task, array);
   try {
-    const networks::TaskEnd end = networks::solve_task(task, array, o.array, level, options, o.out);
+    const networks::TaskEnd end = networks::solve_task(task, array, o.array, level, options, o.out,
+                                                       static_cast<std::uint32_t>(o.refinements));
     tell(end.notes);
     fmt::print("{}", end.text);
     return end.at_rest ? done : differs;
@@ -96,6 +97,9 @@ void add_solve(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--momentum", o->momentum, "m of array.output = momentum, sweep by sweep; none: FISTA's")
       ->delimiter(',');
+  verb->add_option("--refinements", o->refinements,
+                   "corrections of the answer by its residual in double, at most so many (0)")
+      ->check(whole_number(0, 1000));
   verb->add_option("--seed", o->seed, "of a problem's start")->check(whole_number(1));
   verb->add_option("--out", o->out, "folder for V.mtx, solve.csv, summary.json");
   verb->footer("Example:\n  hopmesh solve box-random-100 --out out/box\n"

@@ -62,7 +62,7 @@ void add_solvers(CLI::App& program, int& exit_code) {
   verb->add_option("--time-step", o->start.time_step, "of the step asked about, if not the motion's; s")
       ->check(positive_number())
       ->needs(still);
-  verb->add_option("--out", o->out, "folder for solvers.csv and solvers.svg");
+  verb->add_option("--out", o->out, "folder for solvers.csv, solvers.svg, seconds.svg, multiplies.svg");
   verb->footer("Example:\n  hopmesh solvers banner --step 10 --out out/solvers");
   verb->callback([o, &exit_code] { exit_code = solvers(*o); });
 }

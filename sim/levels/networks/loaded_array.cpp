@@ -29,6 +29,17 @@ spec::Relaxation LoadedArray::relax(CellNetwork network, double threshold, std::
   return memories_.last_run();
 }
 
+spec::Relaxation LoadedArray::correct(std::vector<double> bias, const std::vector<double>& output,
+                                      double threshold, std::uint32_t max_sweeps) {
+  start_ = to_codes(output, driver_.state);
+  outputs_ = output;
+  hm_network asked{nullptr, bias.data(), outputs_.data()};
+  hm_relaxation end;
+  check(hm_driver_correct(&driver_, &mesh_, &asked, threshold, max_sweeps, &end));
+  sweeps_ = end.sweeps;
+  return memories_.last_run();
+}
+
 void LoadedArray::put_outputs(const std::vector<double>& outputs) {
   outputs_ = outputs;
   start_ = to_codes(outputs, driver_.state);

@@ -30,6 +30,13 @@ class LoadedArray {
   void put_momentum(const std::vector<double>& m);
   /// Loads the network and relaxes it from its start.
   spec::Relaxation relax(CellNetwork network, double threshold, std::uint32_t max_sweeps);
+  /// Relaxes from these outputs with other biases beside the weights that it has.
+  spec::Relaxation correct(std::vector<double> bias, const std::vector<double>& output, double threshold,
+                           std::uint32_t max_sweeps);
+  /// The largest bias that fits beside them.
+  double room() { return hm_driver_room(&driver_); }
+  /// Cycles in which the host has held the bus until now.
+  std::uint64_t bus_cycles() const { return memories_.bus_cycles(); }
   bool is_loaded() const { return driver_.line.bus != nullptr; }
 
   // Of what is loaded:

@@ -1,6 +1,7 @@
 #include "sim/levels/networks/network_level.h"
 
 #include "sim/levels/eigen_vectors.h"
+#include "sim/levels/networks/corrections.h"
 #include "sim/levels/networks/loaded_array.h"
 #include "sim/levels/reference_check.h"
 #include "sim/reference/sweeper.h"
@@ -23,6 +24,13 @@ class ReferenceLevel : public NetworkLevel {
     restart();
     const reference::Relaxation end = reference::relax(*sweeper_, stop_);
     return {end.sweeps, end.converged, 0, 0};
+  }
+  Corrected refine(std::uint32_t most) override {
+    reference::Relaxation answer{sweeper_->V(), 0, true};
+    const reference::Refinement made =
+        reference::refine(network_.network(), order_, network_.start(), stop_, rule_, most, answer);
+    sweeper_.emplace(network_.network(), order_, rule_, answer.V);
+    return {made.corrections, made.refused, made.residual, answer.sweeps, 0};
   }
   void restart() override { sweeper_.emplace(network_.network(), order_, rule_, network_.start()); }
   double sweep() override { return sweeper_->sweep().largest_change; }
@@ -58,6 +66,23 @@ class ArrayLevel : public NetworkLevel {
                       options_.threshold, options_.max_sweeps);
     V_ = vector_of(loaded_.outputs());
     return end;
+  }
+
+  Corrected refine(std::uint32_t most) override {
+    Corrected made;
+    Corrections corrections(
+        network_.network(), loaded_.room(), [&](const Vector& bias, const Vector& output) {
+          const spec::Relaxation end =
+              loaded_.correct(values_of(bias), values_of(output), options_.threshold, options_.max_sweeps);
+          made.sweeps += end.sweeps, made.cycles += end.cycles;
+          return vector_of(loaded_.outputs());
+        });
+    corrections.learn_from(network_.start(), V_);
+    while (corrections.made() < most && corrections.correct(V_)) {
+    }
+    made.corrections = corrections.made(), made.refused = corrections.refused();
+    made.residual = corrections.residual(V_);
+    return made;
   }
 
   void restart() override {

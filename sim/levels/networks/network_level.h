@@ -21,12 +21,22 @@ struct RelaxOptions {
   std::vector<double> momentum = {};
 };
 
+/// What corrections of a relaxation came to; their sweeps and cycles, of an array, are beside its own.
+struct Corrected {
+  std::uint32_t corrections = 0, refused = 0; ///< kept; not kept, since the energy would have risen
+  double residual = 0; ///< largest |s| of neurons that may still move, over the largest |I|
+  std::uint64_t sweeps = 0, cycles = 0;
+};
+
 class NetworkLevel {
  public:
   virtual ~NetworkLevel() = default;
   /// From the start. The reference has neither cycles nor codes: they are 0. Throws Stopped where the user
   /// stops an array.
   virtual spec::Relaxation relax() = 0;
+  /// Corrects what relax() came to by its residual in double, at most so often; no sweep() of the same run
+  /// follows.
+  virtual Corrected refine(std::uint32_t most) = 0;
   /// Puts the start back.
   virtual void restart() = 0;
   /// Another sweep, of the same run where it matters; the largest |change| of an output.

@@ -10,7 +10,7 @@ class Admm : public Solver {
  public:
   Admm(const Problem& problem, double rho_share)
       : Solver(problem), rho_(rho_share * largest_curvature(problem)),
-        factor_(problem, all_outputs(problem), rho_), price_(Vector::Zero(V_.size())) {
+        factor_(problem.W, all_outputs(problem), rho_), price_(Vector::Zero(V_.size())) {
     factorisations_ = 1;
   }
 

@@ -10,7 +10,7 @@ class Cholesky : public Solver {
   explicit Cholesky(const Problem& problem) : Solver(problem) {}
 
   void sweep() override {
-    const Factor factor(problem_, all_outputs(problem_), 0);
+    const Factor factor(problem_.W, all_outputs(problem_), 0);
     ++factorisations_;
     const Vector answer = factor.solve(problem_.I);
     const auto outside = (answer.array().abs() > 1).count();

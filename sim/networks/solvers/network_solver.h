@@ -4,6 +4,7 @@
 #include "sim/networks/solvers/problem.h"
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,12 @@ class Unfit : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a solver in hardware has taken until now.
+struct HardwareWork {
+  std::uint64_t sweeps = 0, array_cycles = 0, bus_cycles = 0, multiplies = 0;
+  double seconds = 0; ///< array and bus, at the array's clock
+};
+
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -23,6 +30,8 @@ class Solver {
 
   virtual void sweep() = 0;              ///< one more sweep or iteration; throws Unfit
   const Vector& V() const { return V_; } ///< in the box
+  /// None of what is no hardware. Its sweeps count, where a step of sweep() is more than one.
+  virtual std::optional<HardwareWork> hardware() const { return std::nullopt; }
   std::uint64_t factorisations() const { return factorisations_; }
 
  protected:

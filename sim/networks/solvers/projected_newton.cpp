@@ -28,7 +28,7 @@ class ProjectedNewton : public Solver {
     if (between.empty()) return d;
     Vector b(between.size());
     for (std::size_t k = 0; k < between.size(); ++k) b[static_cast<Eigen::Index>(k)] = s[between[k]];
-    const Vector x = Factor(problem_, between, 0).solve(b);
+    const Vector x = Factor(problem_.W, between, 0).solve(b);
     ++factorisations_;
     for (std::size_t k = 0; k < between.size(); ++k) d[between[k]] = x[static_cast<Eigen::Index>(k)];
     return d;

@@ -57,9 +57,10 @@ class Runner {
   }
 
   void one_sweep() {
-    if (run_.sweeps == limits_.max_sweeps) return fail(fmt::format("not there after {} sweeps", run_.sweeps));
+    if (run_.sweeps >= limits_.max_sweeps) return fail(fmt::format("not there after {} sweeps", run_.sweeps));
     timed([&] { solver_->sweep(); });
-    ++run_.sweeps;
+    work_ = solver_->hardware();
+    run_.sweeps = work_ ? work_->sweeps : run_.sweeps + 1;
     judge(gap(problem_, answer_, solver_->V()) / answer_.start_gap);
     watch(solver_->V());
   }
@@ -69,10 +70,11 @@ class Runner {
     if (gap < run_.least_gap)
       run_.least_gap = gap, run_.lowest = solver_->V(), run_.least_sweep = run_.sweeps;
     for (std::size_t k = 0; k < limits_.gaps.size(); ++k)
-      if (!run_.reached[k] && gap <= limits_.gaps[k]) run_.reached[k] = Reached{run_.sweeps, run_.seconds};
+      if (!run_.reached[k] && gap <= limits_.gaps[k])
+        run_.reached[k] = Reached{run_.sweeps, run_.seconds, work_};
     const auto sweep = static_cast<double>(run_.sweeps);
     if (run_.samples.empty() || done() || sweep >= sparser * static_cast<double>(run_.samples.back().sweep))
-      run_.samples.push_back({run_.sweeps, gap});
+      run_.samples.push_back({run_.sweeps, gap, run_.seconds, work_});
     if (gap < lowered * lower_gap_) lower_gap_ = gap, lower_at_ = run_.sweeps;
     gap_ = gap;
   }
@@ -109,6 +111,7 @@ class Runner {
   const Limits& limits_;
   SolverRun run_;
   std::unique_ptr<Solver> solver_;
+  std::optional<HardwareWork> work_; ///< of it
   Vector now_, before_;
   double gap_ = 1, lower_gap_ = 1; ///< now; at the last fall that counts
   std::uint64_t lower_at_ = 0;

@@ -22,11 +22,14 @@ struct Limits {
 struct Reached {
   std::uint64_t sweeps = 0;
   double seconds = 0;
+  std::optional<HardwareWork> hardware = {};
 };
 
 struct Sample {
   std::uint64_t sweep;
   double gap; ///< relative to the start's
+  double seconds = 0;
+  std::optional<HardwareWork> hardware = {};
 };
 
 struct SolverRun {

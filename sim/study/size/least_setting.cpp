@@ -42,10 +42,20 @@ Setting LeastSetting::cut_to(const Setting& start, int level) const {
   return cut;
 }
 
-// Halving keeps a cut that passes above one that fails. Where even the start fails, luck may still lie below.
-std::optional<Setting> LeastSetting::start_of(const Setting& start) {
+// Halving keeps a cut that passes above one that fails.
+Setting LeastSetting::halved(const Setting& start, int passes, int fails) {
+  while (passes - fails > 1) {
+    const int middle = (passes + fails) / 2;
+    (ask(cut_to(start, middle)).passes ? passes : fails) = middle;
+  }
+  return cut_to(start, passes);
+}
+
+// Where even the start fails, luck may still lie below.
+std::optional<Setting> LeastSetting::start_of(const Setting& start, std::optional<int> guess) {
   const int top = *std::max_element(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(knobs_));
-  if (!ask(start).passes) {
+  const bool good = guess && *guess < top && ask(cut_to(start, *guess)).passes;
+  if (!good && !ask(start).passes) {
     std::vector<Setting> cuts;
     for (int level = top - 2; level > 0; level -= 2) cuts.push_back(cut_to(start, level));
     ask_all(cuts);
@@ -53,13 +63,9 @@ std::optional<Setting> LeastSetting::start_of(const Setting& start) {
       if (trial(cuts[k]).passes) return cuts[k];
     return std::nullopt;
   }
-  int passes = top, fails = 0;
-  if (ask(cut_to(start, fails)).passes) return cut_to(start, fails);
-  while (passes - fails > 1) {
-    const int middle = (passes + fails) / 2;
-    (ask(cut_to(start, middle)).passes ? passes : fails) = middle;
-  }
-  return cut_to(start, passes);
+  if (ask(cut_to(start, 0)).passes) return cut_to(start, 0);
+  if (good) return halved(start, *guess, 0);
+  return halved(start, top, guess ? std::min(*guess, top - 1) : 0);
 }
 
 std::optional<Setting> LeastSetting::next(const Setting& at, int by) {
@@ -99,8 +105,8 @@ std::optional<Setting> LeastSetting::cheaper_than(const Setting& at,
   return best;
 }
 
-std::optional<Setting> LeastSetting::from(const Setting& start) {
-  const std::optional<Setting> first = start_of(start);
+std::optional<Setting> LeastSetting::from(const Setting& start, std::optional<int> guess) {
+  const std::optional<Setting> first = start_of(start, guess);
   if (!first) return std::nullopt;
   int stride = 1;
   while (4 * stride < *std::max_element(first->begin(), first->begin() + static_cast<std::ptrdiff_t>(knobs_)))

@@ -29,8 +29,9 @@ class LeastSetting {
   /// From a setting that should pass: all knobs together as low as they go, then knob by knob, each time the
   /// one that saves most for the error it adds, in strides that double where they pass and halve where they
   /// do not. What passes at two less though not at one less, or was seen to pass at less cost, is gone on
-  /// from. None where neither `start` nor any cut of it passes.
-  std::optional<Setting> from(const Setting& start);
+  /// from. None where neither `start` nor any cut of it passes. `guess`: the level down to which all knobs
+  /// are cut first, and where that passes, nothing wider is tried.
+  std::optional<Setting> from(const Setting& start, std::optional<int> guess = {});
 
   const Trial& trial(const Setting& setting) const { return seen_.at(setting); }
   const std::map<Setting, Trial>& seen() const { return seen_; }
@@ -39,7 +40,8 @@ class LeastSetting {
   const Trial& ask(const Setting& setting);
   void ask_all(const std::vector<Setting>& settings);
   Setting cut_to(const Setting& start, int level) const;
-  std::optional<Setting> start_of(const Setting& start);
+  std::optional<Setting> start_of(const Setting& start, std::optional<int> guess);
+  Setting halved(const Setting& start, int passes, int fails);
   std::optional<Setting> next(const Setting& at, int by);
   Setting descended(Setting at, int stride);
   std::optional<Setting> cheaper_than(const Setting& at, const std::vector<Setting>& tried) const;

@@ -50,12 +50,12 @@ void expect_decided(double error, const Twin& twin, double time_step) {
 }
 
 // The end of the reference's free motion, or of the exact one, which lies in the folder.
-Target target_of(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder) {
+Target target_of(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder,
+                 levels::ReferenceMover& reference, StepBounds& bounds) {
   const scene::MotionKeys& motion = p.inputs.scene.motion;
-  levels::ReferenceMover reference(p.inputs.scene, *p.mesh, p.inputs.array);
   Twin twin(p.inputs.scene, *p.mesh, p.inputs.array);
   const run::RunResult result =
-      run::simulate_shown(reference, static_cast<std::uint64_t>(motion.steps), {&twin});
+      run::simulate_shown(reference, static_cast<std::uint64_t>(motion.steps), {&twin, &bounds});
   if (result.outcome == run::Outcome::interrupted) throw SearchStopped();
   if (result.outcome == run::Outcome::finished) expect_decided(order.error, twin, motion.time_step);
   Target target;
@@ -107,10 +107,33 @@ std::string why_not(const SizeOrder& order, const Target& target) {
                      order.error, target.reached);
 }
 
+// Errors of steps need not add up, nor stay what they were: so this is where to begin, and no answer.
+std::optional<int> start_level(const SizeOrder& order, const Sizing& sizing, const StepBounds& bounds,
+                               const scene::Inputs& inputs) {
+  const double a_step =
+      order.error / static_cast<double>(std::max<std::int64_t>(1, inputs.scene.motion.steps));
+  const Setting widest = sizing.widest();
+  const int top = *std::max_element(widest.begin(), widest.begin() + k_reciprocal);
+  for (int level = 1; level < top; ++level) {
+    Setting cut = widest;
+    for (std::size_t knob = 0; knob <= k_reciprocal; ++knob)
+      while (cut[knob] > level) {
+        const auto lower = sizing.lowered(cut, knob, 1);
+        if (!lower) break;
+        cut = *lower;
+      }
+    const auto most = bounds.of(sizing.inputs_of(cut));
+    if (most && most->most <= a_step) return level;
+  }
+  return std::nullopt;
+}
+
 SizeEnd search(const SizeOrder& order, const levels::Prepared& p, const std::filesystem::path& folder,
                const TrialFolder& kept) {
   const std::string& name = p.inputs.scene.name;
-  const Target target = target_of(order, p, folder);
+  levels::ReferenceMover reference(p.inputs.scene, *p.mesh, p.inputs.array);
+  StepBounds bounds(reference, *p.mesh, p.inputs);
+  const Target target = target_of(order, p, folder, reference, bounds);
   const std::string why = why_not(order, target);
   if (!why.empty()) return {run::Outcome::failed, fmt::format("{}: {}\n", name, why)};
   Sizing sizing(p.inputs, *p.mesh);
@@ -118,12 +141,26 @@ SizeEnd search(const SizeOrder& order, const levels::Prepared& p, const std::fil
   sizing.keep_integer_bits(given.ranges);
   SizeTrials trials(sizing, kept, target.positions, order.workers);
   const auto sweeps = static_cast<std::uint64_t>(most_sweeps * static_cast<double>(target.sweeps));
-  const SizeGoal goal{order.error, order.time_per_step, sweeps, p.inputs.array.clock_mhz,
-                      p.mesh->topology().most_taps()};
+  const SizeGoal goal{order.error,
+                      order.time_per_step,
+                      sweeps,
+                      p.inputs.array.clock_mhz,
+                      p.mesh->topology().most_taps(),
+                      start_level(order, sizing, bounds, p.inputs)};
   const SizeFound found = find_size(sizing, goal, trials);
   if (!found.reached) return {run::Outcome::failed, fmt::format("{}: {}\n", name, found.why)};
-  const SizeReport report{
-      order, p, sizing, found, given.row, folder, target.reached, target.floor, target.sensitivity, sweeps};
+  const SizeReport report{order,
+                          p,
+                          sizing,
+                          found,
+                          given.row,
+                          folder,
+                          target.reached,
+                          target.floor,
+                          target.sensitivity,
+                          sweeps,
+                          bounds,
+                          goal.start_level};
   write_size(report);
   return {run::Outcome::finished, text_of(report)};
 }

@@ -37,14 +37,18 @@ void write_row(files::CsvWriter& table, const SizeReport& r, const SizeEvidence&
   table.cell(name_of(e.row.outcome)).cell(e.row.error).cell(e.fails_by).cell(e.row.sweeps).cell(e.row.cycles);
   table.cell(e.row.bus_cycles).cell(time_of(e.row).seconds(array.clock_mhz));
   table.cell(slowest_step(e.row, array));
+  const auto bound = r.bounds.of(r.sizing.inputs_of(e.setting));
+  table.cell(bound ? std::optional(bound->most) : std::nullopt);
+  table.cell(!bound ? "" : bound->proved ? "proved" : "assumed");
   table.cell(command_of(r, e.setting)).end_row();
 }
 
 void write_evidence(const SizeReport& r) {
   std::vector<std::string> columns{"what", "knob"};
   columns.insert(columns.end(), knob_names.begin(), knob_names.end());
-  for (const char* name : {"memory_bits", "multiplier_bits", "status", "error", "fails_by", "sweeps",
-                           "cycles", "bus_cycles", "hardware_seconds", "slowest_step", "command"})
+  for (const char* name :
+       {"memory_bits", "multiplier_bits", "status", "error", "fails_by", "sweeps", "cycles", "bus_cycles",
+        "hardware_seconds", "slowest_step", "step_bound", "bound_is", "command"})
     columns.emplace_back(name);
   files::CsvWriter table(r.folder / "size.csv", columns);
   for (const SizeEvidence& e : r.found.evidence) write_row(table, r, e);
@@ -79,8 +83,8 @@ std::string less_text(const SizeReport& r, const char* what, const std::string& 
 }
 
 std::string knob_lines(const SizeReport& r) {
-  std::string lines = fmt::format("  {:<22} {:<28} {:>24} {:>24}\n", "", "least", "one less: m (fails by)",
-                                  "two less: m (fails by)");
+  std::string lines = fmt::format("  {:<22} {:<28} {:>24} {:>24}\n", "", "least",
+                                  "tried, one less (fails by)", "tried, two less (fails by)");
   const bool reciprocal = r.sizing.array_of(r.found.setting).normaliser == spec::Normaliser::reciprocal;
   for (std::size_t knob = 0; knob < k_lanes; ++knob) {
     if (knob == k_reciprocal && !reciprocal) continue;
@@ -89,6 +93,22 @@ std::string knob_lines(const SizeReport& r) {
                          less_text(r, "one less", name), less_text(r, "two less", name));
   }
   return lines;
+}
+
+/// What follows from the formats, and what only flying tells.
+std::string known_lines(const SizeReport& r) {
+  const auto bound = r.bounds.of(r.sizing.inputs_of(r.found.file));
+  std::string text = "Tried: errors, sweeps and cycles, of this motion alone. Proved: silicon, by formula";
+  if (!bound) return text + "; nothing bounds a step's positions here\n";
+  text += fmt::format("; {}with the scene's relaxation a step's positions end within {:.3g} m rms of its own "
+                      "network's answer (the largest of {} looked at)\n",
+                      bound->proved ? "" : "unproved, if momentum slows down slowly, ", bound->most,
+                      with_noun(r.bounds.looked_at(), "step"));
+  if (r.start_level)
+    text += fmt::format("The search began at {} behind every point, where that bound times the steps is the "
+                        "error asked for\n",
+                        with_noun(static_cast<std::uint64_t>(*r.start_level), "bit"));
+  return text;
 }
 
 std::string lane_lines(const SizeReport& r) {
@@ -160,7 +180,7 @@ std::string text_of(const SizeReport& r) {
     text += fmt::format("The reference itself ends {:.3g} m from the truth, which is known to {:.1g} m\n",
                         r.reached, r.floor);
   text += fmt::format("Two references that start a last place apart end {:.2g} m apart\n", r.sensitivity);
-  text += given_line(r) + knob_lines(r) + lane_lines(r) + silicon_lines(r);
+  text += given_line(r) + knob_lines(r) + known_lines(r) + lane_lines(r) + silicon_lines(r);
   text += fmt::format("Formats tried: {}; {} met the error, {} of them with less silicon than this\n",
                       r.found.tried, r.found.met, r.found.cheaper);
   const std::string command = file_command(r);

@@ -3,6 +3,7 @@
 
 #include "sim/study/size/size.h"
 #include "sim/study/size/size_search.h"
+#include "sim/study/size/step_bounds.h"
 
 namespace hopmesh::study {
 
@@ -17,6 +18,8 @@ struct SizeReport {
   double reached, floor;     ///< of the truth: how near double itself comes, and how far it is known, m
   double sensitivity;        ///< of the motion to the last place of its start, m
   std::uint64_t most_sweeps; ///< limit of sweeps of a step
+  const StepBounds& bounds;
+  std::optional<int> start_level; ///< of formats, tried first
 };
 
 /// size.toml, the array, and size.csv, the evidence.

@@ -60,7 +60,7 @@ class Search {
           return lower ? std::optional(part(*lower, first, end)) : std::nullopt;
         },
         [=](const std::vector<Setting>& parts) { return asked(parts, first, formats); });
-    const auto least = search.from(begin_of(first, end));
+    const auto least = search.from(begin_of(first, end), formats ? goal_.start_level : std::nullopt);
     if (formats) count(search, least);
     if (!least) return false;
     const Setting at = whole(*least, first);

@@ -12,6 +12,7 @@ struct SizeGoal {
   std::uint64_t most_sweeps = 0; ///< in all: bits are not to be bought with sweeps
   double clock_mhz = 100;
   std::size_t most_taps = 1;
+  std::optional<int> start_level = {}; ///< of all formats, to be tried first: where formats prove enough
 };
 
 /// A line of the evidence: what was tried beside the size, and what came of it.

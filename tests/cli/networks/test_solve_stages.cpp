@@ -43,6 +43,49 @@ TEST_F(CliSolveStages, ATableOfMomentumCounts) {
   }
 }
 
+// Ten digits from weights of 16 bits, at every level, with outputs at bounds and by every stage.
+TEST_F(CliSolveStages, CorrectionsTakeAnswersBeyondTheWords) {
+  for (const std::string level : {"reference", "engine", "systemc"})
+    for (const std::string rule : {"projected", "momentum --set array.schedule=synchronous"}) {
+      const std::string line = "solve box-random-100 --level " + level + " --rule " + rule;
+      good(line + " --out plain");
+      const std::string text = good(line + " --refinements 12 --out refined").out;
+      const auto plain = summary_of("plain"), refined = summary_of("refined");
+      EXPECT_FALSE(plain.contains("corrections"));
+      EXPECT_GT(refined["corrections"]["kept"].get<int>(), 0) << line;
+      EXPECT_GT(plain["kkt_residual"].get<double>(), 1e-6) << line;
+      EXPECT_LT(refined["kkt_residual"].get<double>(), 1e-10) << line;
+      EXPECT_LE(refined["energy"].get<double>(), plain["energy"].get<double>());
+      EXPECT_EQ(content_of(at("plain/solve.csv")), content_of(at("refined/solve.csv")))
+          << "of the first answer";
+      EXPECT_THAT(text,
+                  ::testing::ContainsRegex("corrections? in [0-9,]+ more sweeps?, [01] refused; residual "));
+    }
+}
+
+TEST_F(CliSolveStages, MistakesOfCorrectionsAreToldInOneLine) {
+  refused("solve two-neurons --refinements 1001", "--refinements");
+  refused("solve memory-100 --refinements 2", "--refinements: found outputs that are signs");
+  refused("solve box-random-100 --array prescaled --refinements 2",
+          "--refinements: found array.normaliser = prescaled");
+}
+
+// Allowed; what is lost is told in a line.
+TEST_F(CliSolveStages, MomentumTakesAnAsymmetricWAndSaysThatNoProofHolds) {
+  write_text(at("W.mtx"), "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 -1\n2 2 -1\n1 2 0.25\n");
+  write_text(at("I.mtx"), "%%MatrixMarket matrix array real general\n2 1\n0.5\n0.25\n");
+  const std::string momentum =
+      "solve W.mtx I.mtx --asymmetric --rule momentum --set array.schedule=synchronous ";
+  for (const std::string level : {"reference", "engine"}) {
+    const Finished f = hopmesh(momentum + "--level " + level);
+    EXPECT_EQ(f.exit_code, 0) << f.err;
+    EXPECT_THAT(f.err, ::testing::HasSubstr("W is not symmetric: with momentum no proof says"));
+  }
+  EXPECT_THAT(hopmesh("solve W.mtx I.mtx --asymmetric").err,
+              ::testing::Not(::testing::HasSubstr("no proof")));
+  refused("solve W.mtx I.mtx --asymmetric --refinements 1", "--refinements: found a W that is not symmetric");
+}
+
 TEST_F(CliSolveStages, MistakesOfStagesAreToldInOneLine) {
   refused("solve two-neurons --stop never", "--stop: found never, expected change, sum");
   refused("solve two-neurons --share 0.75", "--share: found 0.75, expected a number from 0 to 0.5");
