@@ -27,6 +27,7 @@ enum class Subject {
   glance,     ///< how near the host sees at least that it did not come
   correction, ///< of answers by their residuals
   clock,      ///< of a simulated array
+  host,       ///< whose instructions are counted
   network,    ///< as loaded into an array
   reference   ///< the array's answers against it
 };
@@ -137,6 +138,9 @@ inline constexpr StepColumn all_step_columns[] = {
         &StepRow::residual, Subject::correction, Curve{"residual at the end of a step"},
         Total{Summary::median, "median_residual", "residual of a step", "{:.2g} (median)"},
         Total{Summary::largest, "largest_residual", "largest residual", "{:.2g}"}),
+    StepColumn("instructions", "", "of the host, where an emulated one counts them (`host.processor`)",
+               &StepRow::instructions, Subject::host, Curve{"host's instructions a step"},
+               Total{Summary::sum, "instructions", "host's instructions", "{:.4g}"}),
     StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
                HashFigure{&StepRow::hash}, Subject::motion),
 };

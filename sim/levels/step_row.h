@@ -33,6 +33,7 @@ struct StepRow {
   std::optional<double> fall_left;            ///< where the reference was asked or answers itself
   std::optional<double> fall_seen;            ///< of it, so much at least: LeftOver
   std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
+  std::optional<double> instructions; ///< of the host, where they are counted
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;
 };
