@@ -27,6 +27,7 @@ enum class Subject {
   glance,     ///< how near the host sees at least that it did not come
   correction, ///< of answers by their residuals
   clock,      ///< of a simulated array
+  host,       ///< whose instructions are counted
   network,    ///< as loaded into an array
   reference,  ///< the array's answers against it
   certainty   ///< what is known of them without a rest
@@ -150,6 +151,9 @@ inline constexpr StepColumn all_step_columns[] = {
                &StepRow::error_bound, Subject::certainty, {},
                Total{Summary::median, "median_error_bound", "output error is at most, beforehand",
                      "{:.3g} rms (median)"}),
+    StepColumn("instructions", "", "of the host, where an emulated one counts them (`host.processor`)",
+               &StepRow::instructions, Subject::host, Curve{"host's instructions a step"},
+               Total{Summary::sum, "instructions", "host's instructions", "{:.4g}"}),
     StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
                HashFigure{&StepRow::hash}, Subject::motion),
 };

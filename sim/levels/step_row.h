@@ -35,6 +35,7 @@ struct StepRow {
   std::optional<double> told_error;           ///< rms of V - V_rest without a rest: networks/told_error.h
   std::optional<double> error_bound;          ///< beforehand: networks/error_bound.h
   std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
+  std::optional<double> instructions; ///< of the host, where they are counted
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;
 };

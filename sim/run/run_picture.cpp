@@ -60,6 +60,8 @@ template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& 
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
+  case Subject::host:
+    return facts.level->has_codes() && facts.inputs.scene.host.counts();
   case Subject::reference:
     return is_judged(rows);
   }
@@ -72,6 +74,9 @@ void add_totals(levels::Subject subject, const StepLog& rows, std::vector<pictur
 }
 
 std::string hardware_text(const machine::HardwareTime& time, double mhz) {
+  if (time.host_seconds)
+    return fmt::format("{:.3g} s, {:.3g} % of it the host's; of array and bus, {:.0f} % on the bus",
+                       time.seconds(mhz), 100 * time.host_share(mhz), 100 * time.bus_share());
   return fmt::format("{:.3g} s at {} MHz, {:.0f} % of it on the bus (the host's own part is not known)",
                      time.seconds(mhz), mhz, 100 * time.bus_share());
 }
@@ -102,6 +107,7 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
     lines.push_back({"time on hardware", hardware_text(time, facts.inputs.array.clock_mhz)});
     lines.push_back({"utilisation", utilisation_text(timeline)});
     add_totals(Subject::clock, rows, lines);
+    if (is_shown(Subject::host, facts, rows)) add_totals(Subject::host, rows, lines);
   }
   add_totals(Subject::motion, rows, lines);
   if (const auto o = picture_origin(mesh.mesh()); o != std::array<double, 3>{0, 0, 0})

@@ -23,8 +23,12 @@ std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
   return all;
 }
 
-void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRow& row) {
-  const machine::Timeline timeline = machine::timeline_of(array, t, {row.cycles, row.bus_cycles, row.sweeps});
+void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, PointRow& row) {
+  const spec::ArraySpec& array = inputs.array;
+  const machine::Timeline timeline =
+      machine::timeline_of(array, t,
+                           {row.cycles, row.bus_cycles, row.sweeps,
+                            inputs.scene.host.known_seconds(row.instructions.value_or(0))});
   row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
   row.utilisation = timeline.utilisation();
   row.utilisation_with_bus = timeline.utilisation_with_bus();
@@ -56,7 +60,9 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
     row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
-  if (row.cycles > 0) add_hardware(inputs.array, mesh.topology(), row);
+  if (inputs.scene.host.counts() && row.cycles > 0)
+    row.instructions = run::total_of(result.rows, &StepRow::instructions, Summary::sum);
+  if (row.cycles > 0) add_hardware(inputs, mesh.topology(), row);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

@@ -70,6 +70,7 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
     {std::regex("toml.*"), {"sim/input"}},
+    {std::regex("unicorn/.*"), {"sim/levels"}},
     {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/files", "sim/pictures"}},
 };
 
@@ -81,11 +82,14 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"network", "quantise"},
                                             {"springs", "relax", "window"},
                                             {"driver", "time_step", "residual"},
-                                            {"formulation"},
+                                            {"formulation", "fixed"},
                                             {"incremental"},
                                             {"refine"},
                                             {"probe", "implicit", "static"},
-                                            {"integrator"}};
+                                            {"integrator"},
+                                            {"core_map", "core_job"},
+                                            {"core_bus", "core_memory"},
+                                            {"core_main"}};
 
 // Written by CMake when the build is configured.
 const std::set<std::string> generated = {"version.h", "place.h"};
@@ -156,10 +160,10 @@ void judge_include(const TreeFile& file, const std::string& included) {
       << file.path << " includes " << included;
 }
 
-/// Header and source; those of driver and network, which are long, have further parts.
+/// Header and source; those of driver, network, quantise and fixed, which are long, have further parts.
 std::string unit_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  for (const char* const unit : {"driver", "network"})
+  for (const char* const unit : {"driver", "network", "quantise", "fixed"})
     if (starts_with(stem, std::string(unit) + '_')) return unit;
   return stem;
 }
