@@ -2,50 +2,9 @@
 // the writer and the reader of the file, statistics, report and docs walk these lines.
 #pragma once
 
-#include "sim/levels/column_total.h"
-#include "sim/levels/step_row.h"
-
-#include <variant>
+#include "sim/levels/column_form.h"
 
 namespace hopmesh::levels {
-
-/// A figure that stands in its cell as 16 hexadecimal digits.
-struct HashFigure {
-  std::uint64_t StepRow::*member;
-  bool operator==(const HashFigure& other) const { return member == other.member; }
-};
-
-/// Where a row keeps the figure of a column.
-using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*,
-                                std::optional<double> StepRow::*, HashFigure, double ReferenceError::*>;
-
-/// What a column is about. Statistics and report show its totals and its curve only where a run has that.
-enum class Subject {
-  motion,
-  relaxation, ///< of a network
-  rest,       ///< how near it came
-  glance,     ///< how near the host sees at least that it did not come
-  correction, ///< of answers by their residuals
-  clock,      ///< of a simulated array
-  host,       ///< whose instructions are counted
-  network,    ///< as loaded into an array
-  reference,  ///< the array's answers against it
-  certainty   ///< what is known of them without a rest
-};
-
-struct StepColumn {
-  constexpr StepColumn(const char* called, const char* measured_in, const char* meaning, StepFigure of,
-                       Subject about, Curve drawn = {}, Total first = {}, Total second = {})
-      : name(called), unit(measured_in), words(meaning), figure(of), subject(about),
-        curve(drawn), totals{first, second} {}
-
-  const char *name, *unit;
-  const char* words; ///< its meaning, as the docs print it
-  StepFigure figure;
-  Subject subject;
-  Curve curve;
-  Total totals[2];
-};
 
 /// In the order of the file.
 inline constexpr StepColumn all_step_columns[] = {
