@@ -117,8 +117,11 @@ void StepArray::set_seconds() {
 void StepArray::sweep() {
   expect_steps();
   if (!array_.is_loaded()) return load_and_sweep();
-  array_.sweep();
-  work_.sweeps += 1, work_.array_cycles += a_sweep_;
+  constexpr std::uint64_t sparser =
+      100; // each run anew: a hundredth further, where that is more than a sweep
+  const std::uint64_t more = spec::has_momentum(spec_) ? 1 + work_.sweeps / sparser : 1;
+  array_.sweep(static_cast<std::uint32_t>(more));
+  work_.sweeps += more, work_.array_cycles += more * a_sweep_;
   set_seconds();
 }
 
@@ -191,10 +194,10 @@ std::string stall_text(const StepArray& array, const solvers::SolverRun& solver_
   const Vector off = (solver_run.lowest - answer.V) / place;
   const auto share = [&](const Vector& V) { return gap(problem, answer, V) / answer.start_gap; };
   std::string text = fmt::format(
-      "array: lowest after {} of {} sweeps, at a gap of {:.2g}; there outputs are off by {:.3g} last places "
+      "{}: lowest after {} of {} sweeps, at a gap of {:.2g}; there outputs are off by {:.3g} last places "
       "of {:.2g} at most, {:.3g} rms\n",
-      solver_run.least_sweep, solver_run.sweeps, solver_run.least_gap, off.lpNorm<Eigen::Infinity>(), place,
-      off.norm() / std::sqrt(static_cast<double>(off.size())));
+      solver_run.name, solver_run.least_sweep, solver_run.sweeps, solver_run.least_gap,
+      off.lpNorm<Eigen::Infinity>(), place, off.norm() / std::sqrt(static_cast<double>(off.size())));
   text +=
       fmt::format("  the answer in whole last places has a gap of {:.2g}", share(rounded(answer.V, place)));
   auto loaded = array.loaded();

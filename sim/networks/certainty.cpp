@@ -42,9 +42,10 @@ Certainty certainty_of(const solvers::Problem& problem, const Vector& V, const l
   if (!bounds.definite()) return certainty;
   if (const auto told = levels::told_error({problem.W, problem.I}, V)) {
     certainty.told = told->rms(static_cast<std::size_t>(part.size()));
-    certainty.held = told->held;
+    certainty.held = told->held + told->stopped;
   }
   if (rules) certainty.bound = bounds.of(array, *rules);
+  if (certainty.bound && certainty.held > 0) certainty.bound->each.reset();
   return certainty;
 }
 

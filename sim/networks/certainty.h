@@ -10,7 +10,7 @@ namespace hopmesh::networks {
 struct Certainty {
   double measured = 0;             ///< rms of V against the answer, over the neurons that have weights
   std::optional<double> told = {}; ///< by one solve; none where the network is not definite
-  std::size_t held = 0;            ///< outputs at bounds: then told is an estimate
+  std::size_t held = 0; ///< outputs at bounds, or that the solve takes there: then told is an estimate
   std::optional<levels::ErrorBound> bound = {};
 };
 

@@ -131,14 +131,16 @@ std::string race_array(const Race& race, const Entrant& entrant, std::size_t& pl
   auto& runs = race.solved.all.runs;
   const auto& answer = race.solved.all.answer;
   const auto& stop = levels::stop_requested;
+  const std::string with_corrections = entrant.name + "_corrected";
+  if (!solvers::runs(race.limits, entrant.name) && !solvers::runs(race.limits, with_corrections)) return "";
   StepArray plain(race.whole, race.prepared, entrant.array),
       corrected(race.whole, race.prepared, entrant.array);
   runs.insert(runs.begin() + place++,
               run_array(entrant.name, plain, race.problem, answer, race.limits, stop));
   std::string text = place == 1 ? stall_text(plain, runs.front(), race.problem, answer) : "";
   if (!corrects(entrant.array) || stop) return text;
-  runs.insert(runs.begin() + place++, run_corrected(entrant.name + "_corrected", corrected, race.whole,
-                                                    race.problem, answer, race.limits, stop));
+  runs.insert(runs.begin() + place++, run_corrected(with_corrections, corrected, race.whole, race.problem,
+                                                    answer, race.limits, stop));
   return stop ? text : text + certain_text(race, entrant);
 }
 
@@ -148,7 +150,7 @@ bool race_all(const levels::Prepared& prepared, const solvers::Problem& whole, c
   const solvers::Problem problem = solvers::reached(whole);
   solved.all = solvers::solve_with_all(problem, limits, levels::stop_requested);
   if (levels::stop_requested) return false;
-  if (solved.all.runs.empty()) {
+  if (!(solved.all.answer.start_gap > 0)) {
     solved.outcome = run::Outcome::failed;
     solved.text = solved.title + ": the network starts at its rest; there is nothing to solve\n";
     return true;
@@ -165,6 +167,17 @@ bool race_all(const levels::Prepared& prepared, const solvers::Problem& whole, c
 }
 
 } // namespace
+
+std::vector<std::string> racer_names(const spec::ArraySpec& array) {
+  std::vector<std::string> all;
+  for (const Entrant& entrant : entrants(array)) {
+    all.push_back(entrant.name);
+    if (corrects(entrant.array)) all.push_back(entrant.name + "_corrected");
+  }
+  const auto& others = solvers::solver_names();
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
 
 SolvedStep solve_step(const levels::Prepared& prepared, std::uint64_t step, const StepStart& start,
                       const solvers::Limits& limits) {

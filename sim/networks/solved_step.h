@@ -22,6 +22,10 @@ struct SolvedStep {
 SolvedStep solve_step(const levels::Prepared& prepared, std::uint64_t step, const StepStart& start,
                       const solvers::Limits& limits);
 
+/// Methods that may be named in limits.only: those of this array, each with its corrected twin beside it, and
+/// the solvers'.
+std::vector<std::string> racer_names(const spec::ArraySpec& array);
+
 /// Makes sure before any work that they can be written; throws files::WriteError.
 void check_solver_files(const std::filesystem::path& folder);
 /// solvers.csv, and solvers.svg, seconds.svg and multiplies.svg, which show `command`. Throws

@@ -31,7 +31,7 @@ void write_certainty(files::CsvWriter& out, const SolvedStep& solved, const std:
 void write_table(const std::filesystem::path& path, const SolvedStep& solved,
                  const std::vector<double>& gaps) {
   std::vector<std::string> columns{"method"};
-  for (const char* kind : {"sweeps", "cpu_seconds", "hardware_seconds", "multiplies"})
+  for (const char* kind : {"sweeps", "cpu_seconds", "hardware_seconds", "array_cycles", "multiplies"})
     for (const double gap : gaps) columns.push_back(fmt::format("{}@{:g}", kind, gap));
   for (const char* name : {"factorisations", "sweeps_done", "sweeps_rising", "least_gap", "least_sweep",
                            "output_error", "told_error", "held", "error_bound", "failure"})
@@ -42,6 +42,7 @@ void write_table(const std::filesystem::path& path, const SolvedStep& solved,
     for (const auto& reached : solver_run.reached) reached ? out.cell(reached->sweeps) : out.cell("");
     for (const auto& reached : solver_run.reached) reached ? out.cell(reached->seconds) : out.cell("");
     write_hardware(out, solver_run, &solvers::HardwareWork::seconds);
+    write_hardware(out, solver_run, &solvers::HardwareWork::array_cycles);
     write_hardware(out, solver_run, &solvers::HardwareWork::multiplies);
     out.cell(solver_run.factorisations).cell(solver_run.sweeps).cell(solver_run.rises);
     out.cell(solver_run.least_gap).cell(solver_run.least_sweep);

@@ -8,7 +8,10 @@ namespace {
 constexpr const char* summary_words[] = {"sum", "steps at 0", "root mean square", "median", "largest"};
 
 std::string totals_of(const levels::StepColumn& column) {
-  const std::string within = column.subject == levels::Subject::reference ? "against_reference." : "";
+  const std::string within =
+      column.subject == levels::Subject::reference || column.subject == levels::Subject::certainty
+          ? "against_reference."
+          : "";
   std::string cell;
   for (const levels::Total& total : column.totals)
     if (total.key)

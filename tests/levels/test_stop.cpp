@@ -73,16 +73,19 @@ INSTANTIATE_TEST_SUITE_P(Of, StopBySum,
                            return name + "_" + stages[std::get<1>(made.param)].name;
                          });
 
-/// On the engine, in words that can come near a rest: links as fine as states, so a place of theirs is worth
+/// On the engine, in words that can come near a rest: a place of links as fine as states is worth
 /// little.
-const Overrides fine_links{"formats.link=fixed<24,2,SC_RND,SC_SAT>",
-                           "formats.drive=fixed<24,2,SC_RND,SC_SAT>", "relax.stop=sum", "relax.share=1e-4",
+const Overrides fine_words{"formats.weight=fixed<24,1,SC_RND,SC_SAT>",
+                           "formats.link=fixed<24,2,SC_RND,SC_SAT>",
+                           "formats.drive=fixed<24,2,SC_RND,SC_SAT>",
+                           "relax.stop=sum",
+                           "relax.share=1e-4",
                            "relax.max_sweeps=20000"};
 
 TEST_P(StopBySum, restsOnTheEngine) {
   if (comes_to_bounds_without_end()) GTEST_SKIP() << "no share is ever met there";
   const auto [scene, stage] = GetParam();
-  const levels::Prepared p = levels::prepare(scene, "guarded", joined(fine_links, stages[stage].overrides));
+  const levels::Prepared p = levels::prepare(scene, "guarded", joined(fine_words, stages[stage].overrides));
   const levels::ReadyLevel level = levels::make_ready(levels::default_level(), p, true);
   std::uint64_t held = 0;
   for (int step = 0; step < 3; ++step) {

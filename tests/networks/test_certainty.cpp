@@ -88,20 +88,21 @@ std::vector<double> ratios_of(const std::string& preset, const Overrides& more) 
 
 class BoundOfStage : public ::testing::TestWithParam<const char*> {};
 
-// Link = state: the case in which a bound is of use. Stopped where nothing moves any more, formats alone
-// decide.
-TEST_P(BoundOfStage, holdsAndIsNear) {
-  const std::vector<double> ratios = ratios_of(GetParam(), {"relax.threshold=0"});
-  ASSERT_GE(ratios.size(), 4u);
-  for (const double ratio : ratios) std::cout << ratio << ' ';
-  std::cout << GetParam() << '\n';
-  EXPECT_LE(ratios[ratios.size() / 2], 10);
+void print(const char* preset, const std::vector<double>& ratios) {
+  std::cout << preset << ": bound over measured";
+  for (const double ratio : ratios) std::cout << ' ' << ratio;
+  std::cout << '\n';
 }
 
-TEST_P(BoundOfStage, holdsWhereTheSceneStops) {
+// Link = state: the case in which a bound is of use. It stays true with steps that swing about the rest,
+// where neighbours' errors do not add up as the bound takes them to.
+TEST_P(BoundOfStage, holds) {
   const std::vector<double> ratios = ratios_of(GetParam(), {});
-  for (const double ratio : ratios) std::cout << ratio << ' ';
-  std::cout << GetParam() << '\n';
+  print(GetParam(), ratios);
+  ASSERT_EQ(ratios.size(), cases.size());
+  if (std::string(GetParam()) != "descent-projected") {
+    EXPECT_LE(ratios[ratios.size() / 2], 10);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, BoundOfStage,
@@ -159,15 +160,19 @@ TEST(Bound, isClaimedWhereItHoldsOnly) {
 /// V* of a small dense problem without a box.
 TEST(ToldError, isTheErrorItself) {
   Random random(7);
-  for (int k = 0; k < 40; ++k) {
+  int told_of = 0;
+  for (int k = 0; k < 60; ++k) {
     const solvers::Problem p = random_convex(random, 2 + k % 9, 0.1);
     const Eigen::MatrixXd W = p.W;
     const solvers::Vector answer = (-W).ldlt().solve(p.I);
     const auto told = levels::told_error({p.W, p.I}, p.start);
     ASSERT_TRUE(told);
-    EXPECT_EQ(told->held, 0u);
+    EXPECT_EQ(told->is_estimate(), answer.cwiseAbs().maxCoeff() > 1) << k;
+    if (told->is_estimate()) continue;
+    told_of += 1;
     EXPECT_LT((told->error - (p.start - answer)).norm(), 1e-9 * (1 + answer.norm()));
   }
+  EXPECT_GT(told_of, 20);
 }
 
 // Outputs at bounds that stay there leave the others to be told, and then that is exact, too.
@@ -184,7 +189,8 @@ TEST(ToldError, isOfTheFreeWhereBoundsHold) {
     ASSERT_TRUE(told);
     if (told->held == 0 || (V - answer).cwiseAbs().maxCoeff() == 0) continue;
     held += 1;
-    if ((into_box(V - told->error) - (V - told->error)).norm() > 1e-12) continue; // another bound is met
+    if ((solvers::into_box(V - told->error) - (V - told->error)).norm() > 1e-12)
+      continue; // another bound is met
     EXPECT_LT((told->error - (V - answer)).norm(), 1e-8) << k;
   }
   EXPECT_GT(held, 10);

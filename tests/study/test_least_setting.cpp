@@ -162,7 +162,7 @@ TEST(LeastSetting, beginsWhereItIsTold) {
     LeastSetting first(2, not_below(1), plain.oracle()), second(2, not_below(1), told.oracle());
     const auto least = first.from({30, 30}), again = second.from({30, 30}, guess);
     ASSERT_TRUE(least && again);
-    EXPECT_EQ(*least, *again) << guess;
+    EXPECT_LE(cost_of(*again, {1, 2}), cost_of(*least, {1, 2})) << guess;
     int widest = 0;
     for (const auto& [setting, times] : told.times) widest = std::max(widest, setting[0]);
     if (guess == 9 || guess == 14) {

@@ -13,6 +13,7 @@ struct SolversOptions {
   input::InputWords words;
   std::int64_t step = 0, max_sweeps = 20000;
   std::vector<double> gaps{1e-2, 1e-4, 1e-6};
+  std::vector<std::string> only;
   std::string out;
   networks::StepStart start;
 };
@@ -31,10 +32,12 @@ int solvers(SolversOptions& o) {
     throw input::input_error("", 0, "--gap", fmt::format("{:g} twice", *twice), "each gap once");
   const levels::Prepared p = prepare(o.words);
   check_step(o.step, p);
+  for (const std::string& name : o.only) check_name(name, "--only", networks::racer_names(p.inputs.array));
   const std::filesystem::path folder = o.out;
   if (!o.out.empty()) networks::check_solver_files(folder);
-  const networks::SolvedStep solved = networks::solve_step(
-      p, static_cast<std::uint64_t>(o.step), o.start, {o.gaps, static_cast<std::uint64_t>(o.max_sweeps)});
+  const networks::SolvedStep solved =
+      networks::solve_step(p, static_cast<std::uint64_t>(o.step), o.start,
+                           {o.gaps, static_cast<std::uint64_t>(o.max_sweeps), false, o.only});
   fmt::print("{}", solved.text);
   if (solved.outcome == run::Outcome::finished && !o.out.empty()) {
     networks::write_solver_files(folder, solved, o.gaps, command_of(o));
@@ -55,6 +58,10 @@ void add_solvers(CLI::App& program, int& exit_code) {
       ->delimiter(',')
       ->check(share());
   verb->add_option("--max-sweeps", o->max_sweeps, "where a method gives up (20000)")->check(whole_number(1));
+  verb->add_option("--only", o->only,
+                   "these methods alone, as the table names them; an array's brings its "
+                   "corrected one along")
+      ->delimiter(',');
   auto* cold = verb->add_flag("--cold", o->start.cold, "start from zero, not from the step before");
   auto* still = verb->add_flag("--still", o->start.still,
                                "start from where the mesh stands, and expand the energy there (incremental)");

@@ -23,6 +23,17 @@ double loss_of(const NumberFormat& format) {
   return (cuts ? 1 : 0.5) * place_of(format);
 }
 
+/// The most that it makes a step longer by.
+double excess_of(const NumberFormat& format) {
+  return format.rounding == Rounding::trn_zero ? 0 : loss_of(format);
+}
+
+/// What is lost where u becomes a step of the state: R u is a product, u alone may fit as it is.
+double step_loss_of(const spec::ArraySpec& array) {
+  const bool fits = array.formats.drive.fraction_bits() <= array.formats.state.fraction_bits();
+  return array.output != Output::modified && fits ? 0 : loss_of(array.formats.state);
+}
+
 /// A truncated reciprocal shortens a quotient by at most this factor.
 double stretch_of(const spec::ArraySpec& array) {
   return spec::has_reciprocal(array) ? 1 / (1 - std::ldexp(1.0, 2 - array.reciprocal_bits)) : 1;
@@ -166,8 +177,8 @@ VectorXd ErrorBounds::own_input(const spec::ArraySpec& array, const RunRules& ru
                                 const Reach& reach) const {
   const auto n = static_cast<Index>(neurons_.size());
   if (rules.share) return VectorXd::Constant(n, sum_at_rest(array, rules));
-  const double state = loss_of(array.formats.state), drive = loss_of(array.formats.drive);
-  const double step = moves(array, rules).maxCoeff() + state;
+  const double drive = loss_of(array.formats.drive);
+  const double step = moves(array, rules).maxCoeff() + step_loss_of(array);
   VectorXd most(n);
   for (Index i = 0; i < n; ++i) {
     const double rounded = reach.weight * static_cast<double>(weight_.row(i).nonZeros());
@@ -185,7 +196,7 @@ VectorXd ErrorBounds::own_input(const spec::ArraySpec& array, const RunRules& ru
 VectorXd ErrorBounds::most_input(const spec::ArraySpec& array, const RunRules& rules,
                                  const Reach& reach) const {
   VectorXd most = own_input(array, rules, reach) + later_ * moves(array, rules);
-  most += own_ * (loss_of(array.formats.state) + 2 * loss_of(array.formats.drive));
+  most += own_ * (excess_of(array.formats.state) + 2 * excess_of(array.formats.drive));
   if (place_of(array.formats.link) > place_of(array.formats.state))
     most += sum_ * loss_of(array.formats.link);
   for (Index i = 0; i < most.size() && reach.weight > 0; ++i) {

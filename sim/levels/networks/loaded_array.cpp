@@ -47,15 +47,15 @@ void LoadedArray::put_outputs(const std::vector<double>& outputs) {
   memories_.put_outputs(start_);
 }
 
-spec::Relaxation LoadedArray::next_sweep() {
-  sweeps_ += 1;
-  if (driver_.output != HM_OUTPUT_MOMENTUM) return memories_.one_sweep();
+spec::Relaxation LoadedArray::next_sweep(std::uint32_t more) {
+  sweeps_ += more;
+  if (driver_.output != HM_OUTPUT_MOMENTUM) return memories_.run(0, more);
   memories_.put_outputs(start_);
   return memories_.run(memories_.threshold(), sweeps_);
 }
 
-double LoadedArray::sweep() {
-  const double change = next_sweep().largest_change * last_place();
+double LoadedArray::sweep(std::uint32_t more) {
+  const double change = next_sweep(more).largest_change * last_place();
   outputs_ = to_doubles(memories_.outputs(), last_place());
   return change;
 }

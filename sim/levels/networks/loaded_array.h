@@ -42,8 +42,8 @@ class LoadedArray {
   // Of what is loaded:
   void put_outputs(const std::vector<double>& outputs);
   /// A further sweep; the largest |change| of an output. With momentum, a sweep depends on those before it:
-  /// then the run since the last relax() or put_outputs() is made anew, and is a sweep longer.
-  double sweep();
+  /// then the run since the last relax() or put_outputs() is made anew, and is a sweep longer, or `more`.
+  double sweep(std::uint32_t more = 1);
   const std::vector<double>& outputs() const { return outputs_; }
   /// As the memories have them, in units of the network that was given.
   std::vector<double> weights() const;
@@ -53,7 +53,7 @@ class LoadedArray {
 
  private:
   LoadedArray(ArrayPort& port, const hm_mesh& mesh, const spec::Topology& topology);
-  spec::Relaxation next_sweep();
+  spec::Relaxation next_sweep(std::uint32_t more);
   /// Of what a weight or a bias was multiplied with before it was rounded.
   double unit() const { return hm_power_of_two(-driver_.shift); }
 

@@ -2,6 +2,7 @@
 
 #include "sim/levels/networks/definite_part.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hopmesh::levels {
@@ -37,7 +38,12 @@ std::optional<ToldError> told_error(const reference::Network& network, const Eig
   Eigen::VectorXd left(static_cast<Eigen::Index>(free.size()));
   for (Eigen::Index k = 0; k < left.size(); ++k) left[k] = s[free[static_cast<std::size_t>(k)]];
   const Eigen::VectorXd missing = part.solve(left); // V* - V
-  for (Eigen::Index k = 0; k < left.size(); ++k) told.error[free[static_cast<std::size_t>(k)]] = -missing[k];
+  for (Eigen::Index k = 0; k < left.size(); ++k) {
+    const Eigen::Index i = free[static_cast<std::size_t>(k)];
+    const double answer = V[i] + missing[k], boxed = std::max(-1.0, std::min(1.0, answer));
+    told.error[i] = V[i] - boxed;
+    if (boxed != answer) ++told.stopped;
+  }
   return told;
 }
 

@@ -13,6 +13,10 @@ struct ToldError {
   /// Outputs at a bound that s pushes them against. Where there are none, the error is the error itself;
   /// else an estimate, of who is between the bounds, which takes those that are held for held at the least.
   std::size_t held = 0;
+  std::size_t stopped =
+      0; ///< others that the solve takes out of the box: at the bound, and again an estimate
+
+  bool is_estimate() const { return held + stopped > 0; }
 
   double rms(std::size_t neurons) const;
 };

@@ -146,7 +146,7 @@ SolverRuns solve_with_all(const Problem& problem, const Limits& limits, const st
   for (int round = 0; round < most_rounds && !stop; ++round) {
     all.runs.clear();
     for (const std::string& name : solver_names())
-      all.runs.push_back(run_solver(name, problem, all.answer, limits, stop));
+      if (runs(limits, name)) all.runs.push_back(run_solver(name, problem, all.answer, limits, stop));
     const SolverRun* lower = all.answer.convex ? nullptr : lower_than_answer(all.runs);
     if (!lower) break;
     all.answer = answer_below(problem, lower->lowest);

@@ -4,6 +4,7 @@
 #include "sim/networks/solvers/answer.h"
 #include "sim/networks/solvers/network_solver.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <optional>
@@ -15,6 +16,7 @@ struct Limits {
   std::vector<double> gaps; ///< relative to the start's, falling
   std::uint64_t max_sweeps = 0;
   bool to_rest = false; ///< on beyond the last gap, until it stalls: at rest, or no lower for as long again
+  std::vector<std::string> only = {}; ///< methods that run; empty: all
 };
 
 /// When a gap was first reached. Seconds are the thread's processor time, preparation included, gaps' own
@@ -54,13 +56,17 @@ using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 SolverRun run_solver(const std::string& name, const MakeSolver& make, const Problem& problem,
                      const Answer& answer, const Limits& limits, const std::atomic<bool>& stop);
 
+inline bool runs(const Limits& limits, const std::string& name) {
+  return limits.only.empty() || std::count(limits.only.begin(), limits.only.end(), name) > 0;
+}
+
 struct SolverRuns {
   Answer answer;
   std::vector<SolverRun> runs;
 };
 
-/// All of solver_names(); none where the start is the answer. Where the energy is not convex, against the
-/// lowest that any of them found.
+/// All of solver_names() that the limits let run; none where the start is the answer. Where the energy is not
+/// convex, against the lowest that any of them found.
 SolverRuns solve_with_all(const Problem& problem, const Limits& limits, const std::atomic<bool>& stop);
 
 } // namespace hopmesh::solvers

@@ -54,7 +54,7 @@ Setting LeastSetting::halved(const Setting& start, int passes, int fails) {
 // Where even the start fails, luck may still lie below.
 std::optional<Setting> LeastSetting::start_of(const Setting& start, std::optional<int> guess) {
   const int top = *std::max_element(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(knobs_));
-  const bool good = guess && *guess < top && ask(cut_to(start, *guess)).passes;
+  const bool guessed = guess && *guess < top, good = guessed && ask(cut_to(start, *guess)).passes;
   if (!good && !ask(start).passes) {
     std::vector<Setting> cuts;
     for (int level = top - 2; level > 0; level -= 2) cuts.push_back(cut_to(start, level));
@@ -65,7 +65,7 @@ std::optional<Setting> LeastSetting::start_of(const Setting& start, std::optiona
   }
   if (ask(cut_to(start, 0)).passes) return cut_to(start, 0);
   if (good) return halved(start, *guess, 0);
-  return halved(start, top, guess ? std::min(*guess, top - 1) : 0);
+  return halved(start, top, guessed ? *guess : 0);
 }
 
 std::optional<Setting> LeastSetting::next(const Setting& at, int by) {

@@ -155,6 +155,29 @@ TEST_F(CliRun, TheEngineAsksTheReferenceOnlyWithCheck) {
   EXPECT_TRUE(read_json(without / "stats.json")["against_reference"].is_null());
 }
 
+// In definite networks, every eighth step: what one solve tells is what is measured, and no more than the
+// bound.
+TEST_F(CliRun, TellsErrorsWithoutARest) {
+  const fs::path r = results_of("banner --set mesh.grid.rows=6 --set mesh.grid.columns=6 --steps 17 --check "
+                                "--array descent",
+                                "r"),
+                 probe = results_of("two-nodes --check", "p");
+  const Table t = read_table(r / "steps.csv"), none = read_table(probe / "steps.csv");
+  for (std::size_t k = 0; k < 17; ++k) {
+    const std::string told = t.column.at("told_error")[k], bound = t.column.at("error_bound")[k];
+    EXPECT_EQ(told.empty(), k % 8 != 0) << k;
+    EXPECT_EQ(bound.empty(), k % 8 != 0) << k;
+    if (k % 8 != 0) continue;
+    const double measured = std::stod(t.column.at("output_error_rms")[k]);
+    EXPECT_NEAR(std::stod(told) / measured, 1, 0.1) << k;
+    EXPECT_GE(std::stod(bound), measured) << k;
+  }
+  for (const std::string& told : none.column.at("told_error")) EXPECT_EQ(told, "");
+  const auto stats = read_json(r / "stats.json")["against_reference"];
+  EXPECT_GT(stats["median_error_bound"].get<double>(), stats["median_told_error"].get<double>());
+  EXPECT_THAT(content_of(r / "report.html"), ::testing::HasSubstr("output error as one solve tells it"));
+}
+
 TEST_F(CliRun, SchedulesDifferInCycles) {
   const std::string line = "two-nodes --set mesh.grid.columns=4 --steps 2 --no-check";
   std::vector<double> per_sweep;

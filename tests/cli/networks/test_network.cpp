@@ -3,6 +3,7 @@
 #include "tests/support/cli_test.h"
 
 #include <algorithm>
+#include <regex>
 
 namespace hopmesh::tests {
 namespace {
@@ -187,6 +188,24 @@ TEST_F(CliNetwork, ADivergedMotionIsExitOneAndNoFile) {
   EXPECT_EQ(f.exit_code, 1);
   EXPECT_THAT(f.out, ::testing::HasSubstr("diverged in step"));
   EXPECT_TRUE(names_in(at("n")).empty());
+}
+
+// The figures of what is sure of a step: for an array, and none for a probe, whose networks are not definite.
+TEST_F(CliNetwork, TellsHowSureItsAnswerIs) {
+  const std::string small =
+      "network banner --set mesh.grid.rows=5 --set mesh.grid.columns=5 --step 2 --out n ";
+  const std::string out = good(small + "--array descent").out;
+  std::smatch figures;
+  ASSERT_TRUE(std::regex_search(out, figures,
+                                std::regex("V is (\\S+) rms from the answer; one solve tells (\\S+)\\.\n")))
+      << out;
+  EXPECT_NEAR(std::stod(figures[2]) / std::stod(figures[1]), 1, 0.1);
+  EXPECT_THAT(
+      out, ::testing::ContainsRegex("On the array descent, stopped by the scene's rule: beforehand at most "
+                                    "[0-9.e-]+ \\(link = state, input by input, proved\\)"));
+  EXPECT_THAT(good(small).out, ::testing::HasSubstr("the link is coarser than the state"));
+  EXPECT_THAT(good("network flag-225 --step 1 --out n").out,
+              ::testing::Not(::testing::HasSubstr("one solve")));
 }
 
 } // namespace

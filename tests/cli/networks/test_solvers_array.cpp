@@ -136,5 +136,47 @@ TEST_F(CliSolversArray, FewerBitsStallHigher) {
   EXPECT_THAT(out, ::testing::HasSubstr("that of the weights as loaded one of "));
 }
 
+/// Every stage, plain and corrected: seconds are cycles of array and bus at its clock, corrections come to
+/// gaps that no words hold, and what one solve tells is what is measured.
+TEST_F(CliSolversArray, ShowsEveryStageAndWhatIsSureOfIt) {
+  const std::string out = good("solvers " + scene + "--step 0 --gap 1e-3,1e-12 --out s").out;
+  const Table t = read_table(at("s/solvers.csv"));
+  const auto& method = t.column.at("method");
+  const auto cell = [&](const std::string& name, const std::string& column) {
+    const auto row = std::find(method.begin(), method.end(), name) - method.begin();
+    return t.column.at(column).at(static_cast<std::size_t>(row));
+  };
+  for (const std::string name : {"array", "array_projected", "array_momentum"}) {
+    const double sweeps = std::stod(cell(name, "sweeps@0.001")),
+                 cycles = std::stod(cell(name, "array_cycles@0.001"));
+    EXPECT_GT(cycles, 20 * sweeps) << name;
+    EXPECT_GT(std::stod(cell(name, "hardware_seconds@0.001")), 1e-8 * cycles) << "the bus comes on top";
+    EXPECT_GT(std::stod(cell(name, "multiplies@0.001")), 20 * outputs * sweeps * 0.3);
+    const double measured = std::stod(cell(name, "output_error")), told = std::stod(cell(name, "told_error"));
+    EXPECT_NEAR(told / measured, 1, 0.1) << name;
+    EXPECT_EQ(cell(name, "held"), "0");
+    if (!cell(name, "error_bound").empty()) {
+      EXPECT_GE(std::stod(cell(name, "error_bound")), measured);
+    }
+    EXPECT_EQ(cell(name, "hardware_seconds@1e-12"), "") << "beyond its words";
+  }
+  EXPECT_NE(cell("array_momentum_corrected", "sweeps@1e-12"), "");
+  EXPECT_LT(std::stod(cell("array_momentum", "array_cycles@0.001")),
+            std::stod(cell("array", "array_cycles@0.001")) / 10);
+  EXPECT_EQ(cell("cholesky", "hardware_seconds@0.001"), "");
+  EXPECT_THAT(out, ::testing::HasSubstr("array_momentum: at rest by the scene's rule"));
+  EXPECT_THAT(out, ::testing::HasSubstr("; one solve tells "));
+  for (const char* picture : {"s/solvers.svg", "s/seconds.svg", "s/multiplies.svg"})
+    EXPECT_THAT(content_of(at(picture)), ::testing::HasSubstr("array_momentum_corrected")) << picture;
+}
+
+TEST_F(CliSolversArray, AsksAFewWhereTold) {
+  good("solvers " + scene + "--step 0 --only array_momentum,cholesky --out s");
+  EXPECT_EQ(read_table(at("s/solvers.csv")).column.at("method"),
+            (std::vector<std::string>{"array_momentum", "array_momentum_corrected", "cholesky"}));
+  refused("solvers " + scene + "--step 0 --only newton",
+          "--only: found newton, expected array, array_corrected");
+}
+
 } // namespace
 } // namespace hopmesh::tests
