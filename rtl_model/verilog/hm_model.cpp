@@ -1,5 +1,5 @@
-// The Verilated hm_device behind a C face, for a program that loads it at run time. Made by Verilator with the prefix
-// Vhm; the program that loads it knows which parameters it was made with.
+// The Verilated hm_device behind a C face, for a program that loads it at run time. Made by Verilator with
+// the prefix Vhm; the program that loads it knows which parameters it was made with.
 #include "Vhm.h"
 #include "Vhm___024root.h"
 #include "verilated.h"
@@ -32,7 +32,8 @@ template <std::size_t count> void put(VlWide<count>& place, const std::uint32_t*
   for (std::size_t k = 0; k < count; ++k) place[k] = words[k];
 }
 template <typename Word, std::size_t depth>
-int fill(VlUnpacked<Word, depth>& memory, const std::uint32_t* words, std::uint64_t each, std::uint64_t rows) {
+int fill(VlUnpacked<Word, depth>& memory, const std::uint32_t* words, std::uint64_t each,
+         std::uint64_t rows) {
   if (rows > depth) return -1;
   for (std::uint64_t k = 0; k < rows; ++k) put(memory[k], words + each * k);
   return 0;
@@ -55,7 +56,8 @@ void hm_model_free(void* model) {
 }
 
 /// Table `which`, in the order of the parameters of hm_device: `rows` rows of `each` words.
-int hm_model_table(void* model, int which, const std::uint32_t* words, std::uint64_t each, std::uint64_t rows) {
+int hm_model_table(void* model, int which, const std::uint32_t* words, std::uint64_t each,
+                   std::uint64_t rows) {
   Vhm___024root& root = *static_cast<Model*>(model)->device->rootp;
   switch (which) {
   case 0:
@@ -83,7 +85,8 @@ void hm_model_facts(void* model, const std::uint32_t* words, std::uint64_t count
 }
 
 /// A transfer, clock by clock. Returns the answer of the bus: 0 done, else it was refused.
-int hm_model_transfer(void* model, int write, std::uint32_t address, std::uint32_t* words, std::uint32_t count) {
+int hm_model_transfer(void* model, int write, std::uint32_t address, std::uint32_t* words,
+                      std::uint32_t count) {
   Model& m = *static_cast<Model*>(model);
   Vhm& d = *m.device;
   d.request = 1;
@@ -108,7 +111,8 @@ int hm_model_transfer(void* model, int write, std::uint32_t address, std::uint32
   return 0;
 }
 
-/// Lets at most so many clocks pass, until the interrupt line is up or nothing works any more. Returns how many did.
+/// Lets at most so many clocks pass, until the interrupt line is up or nothing works any more. Returns how
+/// many did.
 std::uint64_t hm_model_wait(void* model, std::uint64_t most) {
   Model& m = *static_cast<Model*>(model);
   std::uint64_t passed = 0;

@@ -28,7 +28,8 @@ int RtlPort::read(std::uint32_t address, std::uint32_t* words, std::uint32_t cou
 
 int RtlPort::write(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
   // The model only reads the words of a write.
-  return library_.transfer(model_, 1, address, const_cast<std::uint32_t*>(words), count) == 0 ? HM_OK : HM_ERROR_BUS;
+  return library_.transfer(model_, 1, address, const_cast<std::uint32_t*>(words), count) == 0 ? HM_OK
+                                                                                              : HM_ERROR_BUS;
 }
 
 // In slices, so that a long relaxation can be stopped. An array that does not work will never raise the line.

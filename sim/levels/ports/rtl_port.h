@@ -9,8 +9,8 @@
 
 namespace hopmesh::levels {
 
-/// Time passes while the bus is held and while the host waits. `library` must be a model of the array with `room`,
-/// in which the network fits, and outlive the port.
+/// Time passes while the bus is held and while the host waits. `library` must be a model of the array with
+/// `room`, in which the network fits, and outlive the port.
 class RtlPort : public ArrayPort {
  public:
   RtlPort(const RtlLibrary& library, const spec::ArraySpec& array, const spec::Topology& topology,
