@@ -137,6 +137,7 @@ StepRow ArrayMover::advance() {
     row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, step_.last);
     row.alternation = row.error->alternation;
     row.fall_left = row.error->fall_left;
+    row.host_error = row.error->host;
     judging_seconds_ += processor_seconds() - began;
   }
   keep();

@@ -27,4 +27,18 @@ struct Curve {
   double factor = 1; ///< as `Total::factor`
 };
 
+/// What a column is about. Statistics and report show its totals and its curve only where a run has that.
+enum class Subject {
+  motion,
+  relaxation, ///< of a network
+  rest,       ///< how near it came
+  glance,     ///< how near the host sees at least that it did not come
+  correction, ///< of answers by their residuals
+  clock,      ///< of a simulated array
+  arithmetic, ///< of a host that has no doubles
+  host,       ///< whose instructions are counted
+  network,    ///< as loaded into an array
+  reference   ///< the array's answers against it
+};
+
 } // namespace hopmesh::levels

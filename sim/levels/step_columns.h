@@ -19,19 +19,6 @@ struct HashFigure {
 using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*,
                                 std::optional<double> StepRow::*, HashFigure, double ReferenceError::*>;
 
-/// What a column is about. Statistics and report show its totals and its curve only where a run has that.
-enum class Subject {
-  motion,
-  relaxation, ///< of a network
-  rest,       ///< how near it came
-  glance,     ///< how near the host sees at least that it did not come
-  correction, ///< of answers by their residuals
-  clock,      ///< of a simulated array
-  host,       ///< whose instructions are counted
-  network,    ///< as loaded into an array
-  reference   ///< the array's answers against it
-};
-
 struct StepColumn {
   constexpr StepColumn(const char* called, const char* measured_in, const char* meaning, StepFigure of,
                        Subject about, Curve drawn = {}, Total first = {}, Total second = {})
@@ -138,6 +125,13 @@ inline constexpr StepColumn all_step_columns[] = {
         &StepRow::residual, Subject::correction, Curve{"residual at the end of a step"},
         Total{Summary::median, "median_residual", "residual of a step", "{:.2g} (median)"},
         Total{Summary::largest, "largest_residual", "largest residual", "{:.2g}"}),
+    StepColumn(
+        "host_error", "",
+        "of a host that computes in whole numbers (`host.arithmetic`): rms of V at rest in its network, "
+        "before rounding, against the reference's",
+        &StepRow::host_error, Subject::arithmetic, {},
+        Total{Summary::median, "median_host_error", "of it by the host's whole numbers",
+              "{:.3g} rms (median)"}),
     StepColumn("instructions", "", "of the host, where an emulated one counts them (`host.processor`)",
                &StepRow::instructions, Subject::host, Curve{"host's instructions a step"},
                Total{Summary::sum, "instructions", "host's instructions", "{:.4g}"}),

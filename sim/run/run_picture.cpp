@@ -58,6 +58,8 @@ template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& 
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
+  case Subject::arithmetic:
+    return is_judged(rows) && facts.inputs.scene.host.arithmetic == scene::Arithmetic::fixed;
   case Subject::host:
     return facts.level->has_codes() && facts.inputs.scene.host.counts();
   case Subject::reference:
@@ -114,10 +116,11 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
   return table;
 }
 
-FigureTable accuracy_table(const StepLog& rows) {
+FigureTable accuracy_table(const RunFacts& facts, const StepLog& rows) {
   FigureTable table{"Against the double reference, step by step", {}};
-  for (const Subject subject : {Subject::reference, Subject::network})
-    add_totals(subject, rows, table.second);
+  for (const Subject subject : {Subject::reference, Subject::arithmetic, Subject::network})
+    if (subject != Subject::arithmetic || is_shown(subject, facts, rows))
+      add_totals(subject, rows, table.second);
   return table;
 }
 
@@ -199,7 +202,7 @@ std::vector<pictures::Series> series_of(const RunFacts& facts, const StepRows& r
 std::vector<FigureTable> run_tables(const RunFacts& facts, const levels::BuiltMesh& mesh,
                                     const RunResult& result, const std::vector<levels::SignalRange>& ranges) {
   std::vector<FigureTable> tables{run_table(facts, result.rows, mesh, result.wall_seconds)};
-  if (is_judged(result.rows)) tables.push_back(accuracy_table(result.rows));
+  if (is_judged(result.rows)) tables.push_back(accuracy_table(facts, result.rows));
   if (!ranges.empty()) tables.push_back(range_table(ranges));
   return tables;
 }
