@@ -14,6 +14,7 @@ enum {
   HM_FIXED_OUTPUT = 29, /* places of an output */
   HM_FIXED_WEIGHT = 24, /* of a weight, in units */
   HM_FIXED_FINER = 4,   /* places that a way in a step has beyond those of a position */
+  HM_FIXED_PULL = 29,   /* of a pull, besides its exponent */
   HM_FIXED_ENERGY = 38  /* of an energy, in the largest alpha times m^2 */
 };
 
@@ -27,7 +28,7 @@ typedef struct hm_fixed_spring {
   hm_fixed_end end[2];
   int32_t rest;      /* in places of a spring */
   int32_t stiffness; /* 2 alpha h^2 in units, Q30 */
-  int32_t pull;      /* 2 alpha h in units a metre, Q30 times 2^-pull_exponent */
+  int32_t pull;      /* 2 alpha h in units a metre, HM_FIXED_PULL places, times 2^-pull_exponent */
   int32_t energy;    /* alpha over the largest's power of two, Q17 */
 } hm_fixed_spring;
 

@@ -3,41 +3,36 @@
 #include "firmware/fixed/fixed_parts.h"
 #include "firmware/registers.h"
 
-/* How numbers become codes: places cut off (below 0: put behind), and above which rest, by sign, a code is
-   one more; to even makes the bound one less for odd codes. */
+/* How numbers become codes: what is added, by sign, before `down` places are cut off; to even adds one more
+   to what becomes an odd code. */
 typedef struct code_rule {
-  int32_t down;
-  uint32_t above[2], even, mask;
-  int32_t low, high;
+  uint32_t down;
+  int32_t add[2], even, low, high;
   int overflow;
 } code_rule;
 
-static code_rule rule_of(const hm_format* f, int32_t down) {
-  const uint32_t places = down > 0 && down < 32 ? (uint32_t)down : 0;
-  const uint32_t mask = places > 0 ? UINT32_MAX >> (32 - places) : 0,
-                 half = places > 0 ? 1u << (places - 1) : 0;
-  const uint32_t nearest = half, up = half > 0 ? half - 1 : 0;
-  const int32_t high = (int32_t)(((uint32_t)1 << (f->width - 1)) - 1);
-  code_rule rule = {down, {up, up},   0, mask, f->overflow == HM_SAT_SYM ? -high : -high - 1,
-                    high, f->overflow};
-  switch (f->rounding) { /* of what is cut from a code rounded down */
+static code_rule rule_of(const hm_format* f, uint32_t down) {
+  const int32_t most = (int32_t)(((uint32_t)1 << down) - 1), half = down > 0 ? (int32_t)(1u << down >> 1) : 0;
+  const int32_t below = half > 0 ? half - 1 : 0, high = (int32_t)(((uint32_t)1 << (f->width - 1)) - 1);
+  code_rule rule = {down, {half, half}, 0, f->overflow == HM_SAT_SYM ? -high : -high - 1, high, f->overflow};
+  switch (f->rounding) {
   case HM_RND_ZERO:
-    rule.above[0] = nearest;
+    rule.add[0] = below;
     break;
   case HM_RND_MIN_INF:
-    rule.above[0] = rule.above[1] = nearest;
+    rule.add[0] = rule.add[1] = below;
     break;
   case HM_RND_INF:
-    rule.above[1] = nearest;
+    rule.add[1] = below;
     break;
   case HM_RND_CONV:
-    rule.above[0] = rule.above[1] = nearest, rule.even = half > 0;
+    rule.add[0] = rule.add[1] = below, rule.even = half > 0;
     break;
   case HM_TRN:
-    rule.above[0] = rule.above[1] = mask;
+    rule.add[0] = rule.add[1] = 0;
     break;
   case HM_TRN_ZERO:
-    rule.above[0] = mask, rule.above[1] = 0;
+    rule.add[0] = 0, rule.add[1] = most;
     break;
   default:
     break; /* HM_RND */
@@ -53,40 +48,74 @@ static int32_t beyond(int64_t code, const code_rule* rule, uint32_t* clipped) {
   return (int32_t)((kept ^ sign) - sign);
 }
 
-static inline int32_t code_of(int32_t w, const code_rule* rule, uint32_t* clipped) {
-  const int32_t whole = w >> rule->down;
-  const uint32_t rest = (uint32_t)w & rule->mask;
-  const int32_t code = whole + (rest > rule->above[w < 0] - (rule->even & (uint32_t)whole));
-  return code > rule->high || code < rule->low ? beyond(code, rule, clipped) : code;
+/* Of a number that the largest code is no smaller than, once `down` places are gone. */
+static inline int32_t code_of(int32_t w, const code_rule* rule) {
+  const int32_t even = rule->even & (w >> rule->down);
+  return (w + rule->add[w < 0] + even) >> rule->down;
 }
 
-/* Of a number that is no word, or a code that is finer than it. More than 31 places lost leave 31 of the
-   rest, the last of which stands for all that follow. */
-static int32_t code_of_wide(int64_t w, const code_rule* rule, const hm_format* format, uint32_t* clipped) {
-  int64_t kept = w;
-  int32_t down = rule->down;
-  if (down < 0) {
-    const int64_t most = INT64_MAX >> 1;
-    for (; down < 0 && kept <= most / 2 && kept >= -most / 2; ++down) kept *= 2;
-    down = 0;
+/* As code_rule, of numbers of 64 bits. */
+typedef struct wide_rule {
+  uint32_t down;
+  int64_t add[2];
+  int32_t even;
+} wide_rule;
+
+static wide_rule wide_rule_of(const hm_format* f, uint32_t down) {
+  const code_rule by = rule_of(f, down < 30 ? down : 30);
+  wide_rule rule = {down, {by.add[0], by.add[1]}, by.even};
+  if (down <= 30) return rule;
+  for (uint32_t k = 0; k < 2; ++k) { /* a half, one less, all or nothing, of more places */
+    const int64_t less = by.add[k] & 1, whole = (int64_t)(by.add[k] + less) << (down - 30);
+    rule.add[k] = whole - less;
   }
-  if (down > 31) {
-    const int64_t less = hm_shifted(w, (uint32_t)(down - 31 < 63 ? down - 31 : 63));
-    kept = less | (hm_shifted(w, 0) != (int64_t)((uint64_t)less << (down - 31 < 63 ? down - 31 : 63)));
-    down = 31;
-  }
-  const code_rule at = rule_of(format, down);
-  const int64_t whole = hm_shifted(kept, (uint32_t)down);
-  const uint32_t rest = (uint32_t)kept & at.mask;
-  const int64_t code = whole + (rest > at.above[w < 0] - (at.even & (uint32_t)whole));
-  return code > at.high || code < at.low ? beyond(code, &at, clipped) : (int32_t)code;
+  return rule;
+}
+
+static inline int64_t wide_code_of(int64_t w, const wide_rule* rule) {
+  const int64_t even = rule->even & hm_shifted(w, rule->down);
+  return hm_shifted(w + rule->add[w < 0] + even, rule->down);
+}
+
+/* w * 2^-down as a number of 64 bits and the places that are still to be cut, at most 61. Far beyond every
+   format it is held; far behind it, what is lost is one bit. */
+static int64_t brought_near(int64_t w, int32_t* down) {
+  const int64_t far = INT64_C(1) << 40;
+  for (; *down < 0 && w < far && w > -far; ++*down) w *= 2;
+  if (*down < 0) *down = 0;
+  if (*down <= 61) return w;
+  const uint32_t away = *down - 61 < 63 ? (uint32_t)(*down - 61) : 63;
+  const int64_t less = hm_shifted(w, away);
+  *down = 61;
+  return less | (w != (int64_t)((uint64_t)less << away));
+}
+
+/* Of any number and any place of its point. */
+static int32_t code_of_any(int64_t w, int32_t down, const hm_format* format, uint32_t* clipped) {
+  const int64_t near = brought_near(w, &down);
+  const wide_rule wide = wide_rule_of(format, (uint32_t)down);
+  const code_rule range = rule_of(format, 0);
+  const int64_t code = wide_code_of(near, &wide);
+  return code > range.high || code < range.low ? beyond(code, &range, clipped) : (int32_t)code;
 }
 
 /* ---- the exponent of a step */
 
+/* Four in turn. */
 static uint32_t largest_weight(const hm_fixed_work* work) {
   const int32_t *w = work->state->weight, *const end = w + work->plan->weights;
   int32_t most = 0, least = 0;
+  for (; end - w >= 4; w += 4) {
+    const int32_t a = w[0], b = w[1], c = w[2], d = w[3];
+    if (a > most) most = a;
+    if (a < least) least = a;
+    if (b > most) most = b;
+    if (b < least) least = b;
+    if (c > most) most = c;
+    if (c < least) least = c;
+    if (d > most) most = d;
+    if (d < least) least = d;
+  }
   for (; w != end; ++w) {
     if (*w > most) most = *w;
     if (*w < least) least = *w;
@@ -134,35 +163,69 @@ static int choose_shift(const hm_fixed_work* work, int32_t* weight_down, int32_t
 
 /* ---- into the windows */
 
-static int put(hm_driver* d, hm_stream* stream, const int32_t* w, uint32_t count, const hm_format* format,
-               int32_t down) {
-  const code_rule rule = rule_of(format, down);
-  const int plain = down >= 0 && down < 32;
-  while (count > 0) {
-    uint32_t room;
-    uint32_t* const at = hm_stream_room(stream, &room);
-    const uint32_t part = count < room ? count : room;
-    for (uint32_t k = 0; k < part; ++k) {
-      const int32_t code =
-          plain ? code_of(w[k], &rule, &d->clipped) : code_of_wide(w[k], &rule, format, &d->clipped);
-      if (code == 0) d->vanished += w[k] != 0;
-      at[k] = (uint32_t)code;
+/* Numbers that fit, as choose_shift has seen to: a short loop, for there are many. */
+static uint32_t fitting_codes(const int32_t* w, uint32_t count, const code_rule* rule, uint32_t* codes) {
+  const code_rule by = *rule;
+  uint32_t vanished = 0;
+  if (by.add[0] == by.add[1] && !by.even) {
+    for (const int32_t* const end = w + count; w != end; ++w, ++codes) {
+      const int32_t number = *w, code = (number + by.add[0]) >> by.down;
+      *codes = (uint32_t)code;
+      if (code == 0) vanished += number != 0;
     }
-    TRY(hm_stream_take(stream, part));
-    w += part;
-    count -= part;
+    return vanished;
   }
-  return hm_stream_end(stream);
+  for (uint32_t k = 0; k < count; ++k) {
+    const int32_t code = code_of(w[k], &by);
+    codes[k] = (uint32_t)code;
+    vanished += code == 0 && w[k] != 0;
+  }
+  return vanished;
+}
+
+static uint32_t any_codes(hm_driver* d, const int32_t* w, uint32_t count, const hm_format* format,
+                          int32_t down, uint32_t* codes) {
+  uint32_t vanished = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    codes[k] = (uint32_t)code_of_any(w[k], down, format, &d->clipped);
+    vanished += codes[k] == 0 && w[k] != 0;
+  }
+  return vanished;
+}
+
+/* A number and what is added to it fit a word. */
+enum { MOST_DOWN = 30 };
+
+static int put_weights(hm_driver* d, const hm_fixed_work* work, int32_t down) {
+  hm_stream stream = hm_stream_of_codes(&d->line, &d->weights);
+  const int32_t* w = work->state->weight;
+  for (uint32_t left = work->plan->weights; left > 0;) {
+    uint32_t room;
+    uint32_t* const at = hm_stream_room(&stream, &room);
+    const uint32_t part = left < room ? left : room;
+    if (down >= 0 && down < MOST_DOWN) {
+      const code_rule rule = rule_of(&d->weight, (uint32_t)down);
+      d->vanished += fitting_codes(w, part, &rule, at);
+    } else {
+      d->vanished += any_codes(d, w, part, &d->weight, down, at);
+    }
+    TRY(hm_stream_take(&stream, part));
+    w += part;
+    left -= part;
+  }
+  return hm_stream_end(&stream);
 }
 
 static int put_biases(hm_driver* d, const hm_fixed_work* work, int32_t down) {
   hm_stream stream = hm_stream_of_codes(&d->line, &d->biases);
-  const code_rule rule = rule_of(&d->bias, down);
+  const int plain = down >= 0 && down < 62;
+  const wide_rule rule = wide_rule_of(&d->bias, plain ? (uint32_t)down : 0);
   for (uint32_t k = 0; k < 3 * work->plan->cells; ++k) {
     uint32_t room;
     uint32_t* const at = hm_stream_room(&stream, &room);
     const int64_t bias = work->state->bias[k];
-    const int32_t code = code_of_wide(bias, &rule, &d->bias, &d->clipped);
+    const int32_t code =
+        plain ? (int32_t)wide_code_of(bias, &rule) : code_of_any(bias, down, &d->bias, &d->clipped);
     d->vanished += bias != 0 && code == 0;
     *at = (uint32_t)code;
     TRY(hm_stream_take(&stream, 1));
@@ -170,14 +233,18 @@ static int put_biases(hm_driver* d, const hm_fixed_work* work, int32_t down) {
   return hm_stream_end(&stream);
 }
 
-/* An output never counts as clipped or vanished. */
+/* The range is looked at; an output that clips or vanishes is none of the network's. */
 static int put_outputs(hm_driver* d, const hm_fixed_work* work) {
   hm_stream stream = hm_stream_of_codes(&d->line, &d->outputs);
-  const uint32_t clipped = d->clipped, vanished = d->vanished;
-  TRY(put(d, &stream, work->state->start, 3 * work->plan->cells, &d->state,
-          HM_FIXED_OUTPUT - hm_fraction_bits(&d->state)));
-  d->clipped = clipped, d->vanished = vanished;
-  return HM_OK;
+  const code_rule rule = rule_of(&d->state, (uint32_t)(HM_FIXED_OUTPUT - hm_fraction_bits(&d->state)));
+  for (uint32_t k = 0; k < 3 * work->plan->cells; ++k) {
+    uint32_t room, clipped = 0;
+    uint32_t* const at = hm_stream_room(&stream, &room);
+    const int32_t code = code_of(work->state->start[k], &rule);
+    *at = (uint32_t)(code > rule.high || code < rule.low ? beyond(code, &rule, &clipped) : code);
+    TRY(hm_stream_take(&stream, 1));
+  }
+  return hm_stream_end(&stream);
 }
 
 static int load(const hm_fixed_work* work) {
@@ -186,8 +253,7 @@ static int load(const hm_fixed_work* work) {
   d->clipped = d->vanished = 0;
   d->shift = choose_shift(work, &weight_down, &bias_down);
   TRY(hm_driver_expect_idle(d));
-  hm_stream weights = hm_stream_of_codes(&d->line, &d->weights);
-  TRY(put(d, &weights, work->state->weight, work->plan->weights, &d->weight, weight_down));
+  TRY(put_weights(d, work, weight_down));
   TRY(put_biases(d, work, bias_down));
   return put_outputs(d, work);
 }

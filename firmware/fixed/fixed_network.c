@@ -7,26 +7,26 @@ enum {
   ONE = 1 << 28
 }; /* slack is Q28; of a spring below an eighth of its rest length it stays just below 8 */
 
-/* A symmetric block: 00 01 02 11 12 22. */
+/* A symmetric block. */
 typedef struct block {
-  int32_t of[6];
+  int32_t xx, xy, xz, yy, yz, zz;
 } block;
 
 /* What a step knows before its springs. */
 typedef struct scales {
   hm_fixed_reach reach;
   uint32_t up;        /* from places of a position to those of a spring */
-  uint32_t pull_down; /* from the product of a way, a direction and a pull to the bias */
-  uint32_t turn_down; /* from weight times output to the bias */
+  uint32_t turn_down; /* from the upper word of weight times output to the bias, ... */
+  int32_t turn_up;    /* ... and back, as a factor */
   int32_t longest;
   int convex;
 } scales;
 
 typedef struct ends {
-  int32_t apart[3]; /* V0_i - V0_j, Q29 */
-  int32_t along[3]; /* u over its length, Q29 */
-  int32_t stretch;  /* length - rest length, in places of a spring */
-  int32_t slack;    /* rest length over length, Q28 */
+  hm_triple apart; /* V0_i - V0_j, Q29 */
+  hm_triple along; /* u over its length, Q29 */
+  int32_t stretch; /* length - rest length, in places of a spring */
+  int32_t slack;   /* rest length over length, Q28 */
 } ends;
 
 hm_fixed_reach hm_fixed_reach_of(const hm_fixed_plan* plan, int32_t scale_exponent) {
@@ -36,77 +36,83 @@ hm_fixed_reach hm_fixed_reach_of(const hm_fixed_plan* plan, int32_t scale_expone
 static inline int32_t slack_of(const hm_root* root, int32_t rest, int32_t length, int convex) {
   if (convex && rest >= length) return ONE;
   if (rest >> 3 >= length - 1) return INT32_MAX;
-  return (int32_t)hm_shifted((int64_t)((uint64_t)(uint32_t)rest * root->inverse), 34 - root->half);
+  return (int32_t)hm_product_from((uint32_t)rest, root->inverse, 34 - root->half);
+}
+
+static inline hm_triple less(hm_triple a, hm_triple b) {
+  return (hm_triple){(int32_t)((uint32_t)a.x - (uint32_t)b.x), (int32_t)((uint32_t)a.y - (uint32_t)b.y),
+                     (int32_t)((uint32_t)a.z - (uint32_t)b.z)};
+}
+
+static inline hm_triple output_of(const hm_fixed_state* state, uint32_t cell) {
+  return cell == HM_PINNED ? (hm_triple){0, 0, 0} : hm_triple_at(state->start + 3 * cell);
+}
+
+/* Is a component within -longest to longest - 1? */
+static inline int is_within(int32_t component, int32_t longest) {
+  return (uint32_t)component + (uint32_t)longest < 2 * (uint32_t)longest;
 }
 
 /* 0 where the spring is longer than numbers reach. */
 static inline int look(const hm_fixed_spring* spring, const hm_fixed_state* state, const scales* by,
                        ends* e) {
-  static const int32_t nowhere[3] = {0, 0, 0};
   const hm_fixed_end *a = &spring->end[0], *b = &spring->end[1];
-  const int32_t *at = state->predicted + 3 * a->node, *to = state->predicted + 3 * b->node;
-  const int32_t* v = a->cell == HM_PINNED ? nowhere : state->start + 3 * a->cell;
-  const int32_t* w = b->cell == HM_PINNED ? nowhere : state->start + 3 * b->cell;
-  int32_t u[3];
-  for (uint32_t p = 0; p < 3; ++p) {
-    const int32_t away = (int32_t)((uint32_t)at[p] - (uint32_t)to[p]);
-    if (away > by->longest || away < -by->longest) return 0;
-    e->apart[p] = v[p] - w[p];
-    u[p] = (int32_t)((uint32_t)away << by->up) + hm_fixed_reached(&by->reach, e->apart[p]);
-  }
+  const hm_triple away =
+      less(hm_triple_at(state->predicted + 3 * a->node), hm_triple_at(state->predicted + 3 * b->node));
+  if (!is_within(away.x, by->longest) || !is_within(away.y, by->longest) || !is_within(away.z, by->longest))
+    return 0;
+  const hm_triple apart = less(output_of(state, a->cell), output_of(state, b->cell));
+  const hm_fixed_reach reach = by->reach;
+  const hm_triple u = {(int32_t)((uint32_t)away.x << by->up) + hm_fixed_reached(&reach, apart.x),
+                       (int32_t)((uint32_t)away.y << by->up) + hm_fixed_reached(&reach, apart.y),
+                       (int32_t)((uint32_t)away.z << by->up) + hm_fixed_reached(&reach, apart.z)};
   const uint64_t square = hm_square_of(u);
-  e->along[0] = e->along[1] = e->along[2] = e->stretch = e->slack = 0;
-  if (square == 0) return 1;
+  if (square == 0) { /* no direction: the part without a rest length alone */
+    *e = (ends){.apart = apart};
+    return 1;
+  }
   const hm_root root = hm_root_of(square);
   const int32_t length = (int32_t)hm_length_of(&root);
-  for (uint32_t p = 0; p < 3; ++p) e->along[p] = hm_along(&root, u[p]);
-  e->stretch = length - spring->rest;
-  e->slack = slack_of(&root, spring->rest, length, by->convex);
+  *e = (ends){.apart = apart,
+              .along = {hm_along(&root, u.x), hm_along(&root, u.y), hm_along(&root, u.z)},
+              .stretch = length - spring->rest,
+              .slack = slack_of(&root, spring->rest, length, by->convex)};
   return 1;
 }
 
 /* S = a ((1 - slack) 1 + slack w w), in Q27. */
 static inline block stiffness_of(const hm_fixed_spring* spring, const ends* e) {
-  const int32_t x = e->along[0] << 2, y = e->along[1] << 2, z = e->along[2] << 2; /* Q31, below 1 */
+  const int32_t x = e->along.x << 2, y = e->along.y << 2, z = e->along.z << 2; /* Q31, below 1 */
   const int32_t sx = hm_upper(e->slack, x) << 1, sy = hm_upper(e->slack, y) << 1,
                 sz = hm_upper(e->slack, z) << 1; /* Q28 */
-  const int32_t round = (ONE - e->slack) >> 1;   /* Q27 */
-  block s = {{hm_upper(sx, x) + round, hm_upper(sx, y), hm_upper(sx, z), hm_upper(sy, y) + round,
-              hm_upper(sy, z), hm_upper(sz, z) + round}};
-  if (spring->stiffness == 1 << 30) return s;
-  for (uint32_t k = 0; k < 6; ++k) s.of[k] = hm_upper(s.of[k], spring->stiffness) << 2;
-  return s;
+  const int32_t round = (ONE - e->slack) >> 1, a = spring->stiffness;
+  const block s = {hm_upper(sx, x) + round, hm_upper(sx, y), hm_upper(sx, z),
+                   hm_upper(sy, y) + round, hm_upper(sy, z), hm_upper(sz, z) + round};
+  if (a == 1 << 30) return s;
+  return (block){hm_upper(s.xx, a) << 2, hm_upper(s.xy, a) << 2, hm_upper(s.xz, a) << 2,
+                 hm_upper(s.yy, a) << 2, hm_upper(s.yz, a) << 2, hm_upper(s.zz, a) << 2};
 }
 
-/* S (V0_i - V0_j) - f. */
-static inline void pull_of(const hm_fixed_spring* spring, const ends* e, const block* s, const scales* by,
-                           int64_t pull[3]) {
-  const int64_t x = e->apart[0], y = e->apart[1], z = e->apart[2];
-  const int32_t* of = s->of;
-  const int64_t turn[3] = {of[0] * x + of[1] * y + of[2] * z, of[1] * x + of[3] * y + of[4] * z,
-                           of[2] * x + of[4] * y + of[5] * z};
-  for (uint32_t p = 0; p < 3; ++p) {
-    const int32_t way = (int32_t)((int64_t)e->stretch * e->along[p] >> HM_FIXED_OUTPUT);
-    pull[p] = hm_shifted(turn[p], by->turn_down) - hm_shifted((int64_t)way * spring->pull, by->pull_down);
-  }
+/* A component of S (V0_i - V0_j) - f. */
+static inline int64_t pull_of(int32_t turn, int32_t stretch, int32_t along, int32_t pull, const scales* by) {
+  const int32_t way = hm_upper(stretch << 1, along << 2);
+  return hm_product(turn >> by->turn_down, by->turn_up) - hm_product(way, pull);
 }
 
 static inline void take(int32_t* at, uint32_t row, const block* s) {
-  const int32_t* of = s->of;
-  at[0] -= of[0], at[1] -= of[1], at[2] -= of[2];
+  at[0] -= s->xx, at[1] -= s->xy, at[2] -= s->xz;
   at += row;
-  at[0] -= of[1], at[1] -= of[3], at[2] -= of[4];
+  at[0] -= s->xy, at[1] -= s->yy, at[2] -= s->yz;
   at += row;
-  at[0] -= of[2], at[1] -= of[4], at[2] -= of[5];
+  at[0] -= s->xz, at[1] -= s->yz, at[2] -= s->zz;
 }
 
 static inline void add(int32_t* at, uint32_t row, const block* s) {
-  const int32_t* of = s->of;
-  at[0] += of[0], at[1] += of[1], at[2] += of[2];
+  at[0] += s->xx, at[1] += s->xy, at[2] += s->xz;
   at += row;
-  at[0] += of[1], at[1] += of[3], at[2] += of[4];
+  at[0] += s->xy, at[1] += s->yy, at[2] += s->yz;
   at += row;
-  at[0] += of[2], at[1] += of[4], at[2] += of[5];
+  at[0] += s->xz, at[1] += s->yz, at[2] += s->zz;
 }
 
 static inline void add_end(const hm_fixed_end* end, hm_fixed_state* state, const block* s) {
@@ -117,36 +123,42 @@ static inline void add_end(const hm_fixed_end* end, hm_fixed_state* state, const
 static inline int add_spring(const hm_fixed_spring* spring, hm_fixed_state* state, const scales* by) {
   const hm_fixed_end *a = &spring->end[0], *b = &spring->end[1];
   ends e;
-  int64_t pull[3];
   if (a->cell == HM_PINNED && b->cell == HM_PINNED) return 1;
   if (!look(spring, state, by, &e)) return 0;
-  block s = stiffness_of(spring, &e);
-  pull_of(spring, &e, &s, by, pull);
-  for (uint32_t k = 0; k < 6; ++k) s.of[k] >>= 27 - HM_FIXED_WEIGHT;
+  const block s = stiffness_of(spring, &e);
+  const int32_t x = e.apart.x, y = e.apart.y, z = e.apart.z, pull = spring->pull;
+  const int64_t px = pull_of(hm_upper(s.xx, x) + hm_upper(s.xy, y) + hm_upper(s.xz, z), e.stretch, e.along.x,
+                             pull, by),
+                py = pull_of(hm_upper(s.xy, x) + hm_upper(s.yy, y) + hm_upper(s.yz, z), e.stretch, e.along.y,
+                             pull, by),
+                pz = pull_of(hm_upper(s.xz, x) + hm_upper(s.yz, y) + hm_upper(s.zz, z), e.stretch, e.along.z,
+                             pull, by);
+  const int cut = 27 - HM_FIXED_WEIGHT;
+  const block w = {s.xx >> cut, s.xy >> cut, s.xz >> cut, s.yy >> cut, s.yz >> cut, s.zz >> cut};
   if (a->cell != HM_PINNED) {
-    add_end(a, state, &s);
-    for (uint32_t p = 0; p < 3; ++p) state->bias[3 * a->cell + p] += pull[p];
+    int64_t* const bias = state->bias + 3 * a->cell;
+    add_end(a, state, &w);
+    bias[0] += px, bias[1] += py, bias[2] += pz;
   }
   if (b->cell != HM_PINNED) {
-    add_end(b, state, &s);
-    for (uint32_t p = 0; p < 3; ++p) state->bias[3 * b->cell + p] -= pull[p];
+    int64_t* const bias = state->bias + 3 * b->cell;
+    add_end(b, state, &w);
+    bias[0] -= px, bias[1] -= py, bias[2] -= pz;
   }
   return 1;
 }
 
 /* V0 has unit length: the term pulls along it with 2 beta, and its W is 2 beta w w. */
-static void add_unit_term(const hm_fixed_node* node, uint32_t cell, hm_fixed_state* state) {
-  const int32_t* w = state->start + 3 * cell;
-  int32_t scaled[3];
-  block b;
-  for (uint32_t p = 0; p < 3; ++p) {
-    scaled[p] = (int32_t)((int64_t)node->weight * w[p] >> HM_FIXED_OUTPUT);
-    const int64_t fine = (int64_t)node->weight * w[p]; /* weight times output */
-    state->bias[3 * cell + p] +=
-        hm_shifted(fine, (uint32_t)(HM_FIXED_WEIGHT + HM_FIXED_OUTPUT - state->bias_places));
-  }
-  for (uint32_t p = 0, k = 0; p < 3; ++p)
-    for (uint32_t q = p; q < 3; ++q, ++k) b.of[k] = (int32_t)((int64_t)scaled[p] * w[q] >> HM_FIXED_OUTPUT);
+static void add_unit_term(const hm_fixed_node* node, uint32_t cell, const scales* by, hm_fixed_state* state) {
+  const hm_triple w = hm_triple_at(state->start + 3 * cell);
+  const int32_t beta = node->weight << 3;                                                  /* Q27, as S */
+  const int32_t x = hm_upper(beta, w.x), y = hm_upper(beta, w.y), z = hm_upper(beta, w.z); /* Q24 */
+  int64_t* const bias = state->bias + 3 * cell;
+  bias[0] += hm_product(x >> by->turn_down, by->turn_up);
+  bias[1] += hm_product(y >> by->turn_down, by->turn_up);
+  bias[2] += hm_product(z >> by->turn_down, by->turn_up);
+  const block b = {hm_upper(x << 3, w.x), hm_upper(x << 3, w.y), hm_upper(x << 3, w.z),
+                   hm_upper(y << 3, w.y), hm_upper(y << 3, w.z), hm_upper(z << 3, w.z)};
   take(state->weight + node->own, node->row, &b);
 }
 
@@ -165,14 +177,15 @@ static void clear(const hm_fixed_plan* plan, hm_fixed_state* state) {
   for (uint32_t k = 0; k < 3 * plan->cells; ++k) state->bias[k] = 0;
 }
 
-/* A pull counts finer at a larger scale: the bias has as many places as its products have, at most 28. */
+/* A bias has the places of a product of a way and a pull, which counts finer at a larger scale. */
 static scales scales_of(const hm_fixed_plan* plan, hm_fixed_state* state) {
-  const int32_t product = plan->spring_places + 30 - plan->pull_exponent + state->scale_exponent;
-  state->bias_places = product < 28 ? product : 28;
+  const int32_t turn_places = 27 + HM_FIXED_OUTPUT - 32;
+  state->bias_places = plan->spring_places + HM_FIXED_PULL - plan->pull_exponent + state->scale_exponent;
+  const int32_t up = state->bias_places - turn_places;
   return (scales){.reach = hm_fixed_reach_of(plan, state->scale_exponent),
                   .up = (uint32_t)(plan->spring_places - plan->position_places),
-                  .pull_down = (uint32_t)(product - state->bias_places),
-                  .turn_down = (uint32_t)(27 + HM_FIXED_OUTPUT - state->bias_places),
+                  .turn_down = up < 0 ? (uint32_t)(up > -31 ? -up : 31) : 0,
+                  .turn_up = up > 0 ? 1 << (up < 30 ? up : 30) : 1,
                   .longest = plan->longest,
                   .convex = (int)plan->implicit};
 }
@@ -188,6 +201,6 @@ int hm_fixed_build(const hm_fixed_work* work, uint32_t* lost_node) {
     if (plan->implicit)
       add_inertia(&work->mesh->node[c], state);
     else
-      add_unit_term(&work->mesh->node[c], c, state);
+      add_unit_term(&work->mesh->node[c], c, &by, state);
   return HM_OK;
 }

@@ -137,6 +137,7 @@ StepRow ArrayMover::advance() {
     row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, step_.last);
     row.alternation = row.error->alternation;
     row.fall_left = row.error->fall_left;
+    row.host_error = row.error->host;
     check_->certify(row);
     judging_seconds_ += processor_seconds() - began;
   }
@@ -145,7 +146,8 @@ StepRow ArrayMover::advance() {
   return row;
 }
 
-static_assert(LeftOver::steps_a_look == 8 && ReferenceCheck::steps_a_proof == 8); // step_columns.h tells people: every eighth step
+static_assert(LeftOver::steps_a_look == 8 &&
+              ReferenceCheck::steps_a_proof == 8); // step_columns.h tells people: every eighth step
 
 // Signs have no way down but their own rule.
 void ArrayMover::look_back(StepRow& row) {

@@ -54,7 +54,7 @@ class ArrayMover : public Mover {
   StepMemory memory_;
   std::unique_ptr<StepHost> host_;
   bool opened_ = false;
-  HostStep step_; ///< the last one
+  HostStep step_;            ///< the last one
   std::vector<double> rest_; ///< V that the last good step left: the next one works in memory_.now.output
   std::vector<SignalRange> seen_; ///< before restore()
   double judging_seconds_ = 0;

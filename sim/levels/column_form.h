@@ -50,6 +50,7 @@ enum class Subject {
   glance,     ///< how near the host sees at least that it did not come
   correction, ///< of answers by their residuals
   clock,      ///< of a simulated array
+  arithmetic, ///< of a host that has no doubles
   host,       ///< whose instructions are counted
   network,    ///< as loaded into an array
   reference,  ///< the array's answers against it

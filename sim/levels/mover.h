@@ -12,8 +12,8 @@
 
 namespace hopmesh::levels {
 
-/// A function of an emulated host's program. Library functions that it calls, those of soft floats among them,
-/// are in `with_library`, too.
+/// A function of an emulated host's program. Library functions that it calls, those of soft floats among
+/// them, are in `with_library`, too.
 struct HostFunction {
   std::string name;
   std::uint64_t instructions = 0, with_library = 0;

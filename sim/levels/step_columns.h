@@ -110,6 +110,13 @@ inline constexpr StepColumn all_step_columns[] = {
                &StepRow::error_bound, Subject::certainty, {},
                Total{Summary::median, "median_error_bound", "output error is at most, beforehand",
                      "{:.3g} rms (median)"}),
+    StepColumn(
+        "host_error", "",
+        "of a host that computes in whole numbers (`host.arithmetic`): rms of V at rest in its network, "
+        "before rounding, against the reference's",
+        &StepRow::host_error, Subject::arithmetic, {},
+        Total{Summary::median, "median_host_error", "of it by the host's whole numbers",
+              "{:.3g} rms (median)"}),
     StepColumn("instructions", "", "of the host, where an emulated one counts them (`host.processor`)",
                &StepRow::instructions, Subject::host, Curve{"host's instructions a step"},
                Total{Summary::sum, "instructions", "host's instructions", "{:.4g}"}),

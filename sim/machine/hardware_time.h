@@ -1,6 +1,6 @@
-// How long a step or a motion takes on hardware: the clocks in which the array computes, those in which the bus
-// is held to load it and to read it, and the time in which the host makes networks and moves the mesh, where that
-// is known: instructions of an emulated host at its clock. The three take turns.
+// How long a step or a motion takes on hardware: the clocks in which the array computes, those in which the
+// bus is held to load it and to read it, and the time in which the host makes networks and moves the mesh,
+// where that is known: instructions of an emulated host at its clock. The three take turns.
 #pragma once
 
 #include <cstdint>

@@ -83,12 +83,9 @@ void add_totals(Json& json, levels::Subject subject, const StepLog& rows) {
 /// An emulated host: what it was, and where its instructions went.
 Json host_json(const scene::HostSpec& host, const levels::HostCounts& counts, const StepLog& rows,
                std::optional<double> seconds) {
-  Json json{{"core", name_of(host.core)},
-            {"cpi", host.cpi},
-            {"clock_mhz", host.clock_mhz},
-            {"seconds", seconds.value_or(0)},
-            {"memory_bytes", counts.memory_bytes},
-            {"functions", Json::array()}};
+  Json json{{"core", name_of(host.core)},          {"cpi", host.cpi},
+            {"clock_mhz", host.clock_mhz},         {"seconds", seconds.value_or(0)},
+            {"memory_bytes", counts.memory_bytes}, {"functions", Json::array()}};
   add_totals(json, Subject::host, rows);
   for (const levels::HostFunction& f : counts.functions)
     json["functions"].push_back(
@@ -216,6 +213,8 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
     if (is_judged(rows)) add_totals(json["against_reference"], Subject::reference, rows);
     if (!rows.empty() && rows.front().told_error)
       add_totals(json["against_reference"], Subject::certainty, rows);
+    if (is_judged(rows) && rows.front().host_error)
+      add_totals(json["against_reference"], Subject::arithmetic, rows);
     for (const levels::SignalRange& r : motion.ranges())
       json["ranges"].push_back({{"signal", r.signal},
                                 {"format", r.format.text()},

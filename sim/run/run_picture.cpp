@@ -60,6 +60,8 @@ template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& 
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
+  case Subject::arithmetic:
+    return is_judged(rows) && facts.inputs.scene.host.arithmetic == scene::Arithmetic::fixed;
   case Subject::host:
     return facts.level->has_codes() && facts.inputs.scene.host.counts();
   case Subject::reference:
@@ -118,7 +120,8 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
 
 FigureTable accuracy_table(const RunFacts& facts, const StepLog& rows) {
   FigureTable table{"Against the double reference, step by step", {}};
-  for (const Subject subject : {Subject::reference, Subject::certainty, Subject::network})
+  for (const Subject subject :
+       {Subject::reference, Subject::arithmetic, Subject::certainty, Subject::network})
     if (is_shown(subject, facts, rows)) add_totals(subject, rows, table.second);
   return table;
 }

@@ -49,8 +49,9 @@ pictures::Drawing timeline_drawing(const RunFacts& facts, const levels::BuiltMes
   view.read = view.runs * machine::run_transfers(array, t, levels::longest_burst).read;
   view.clock_mhz = array.clock_mhz;
   if (const levels::StepRow* row = typical_step(rows)) {
-    view.step = machine::timeline_of(array, t, {row->cycles, row->bus_cycles, row->sweeps,
-                                                  host.known_seconds(row->instructions.value_or(0))});
+    view.step = machine::timeline_of(
+        array, t,
+        {row->cycles, row->bus_cycles, row->sweeps, host.known_seconds(row->instructions.value_or(0))});
     view.step_name =
         fmt::format("Step {}, the one in the middle: {}", row->step, input::with_noun(row->sweeps, "sweep"));
   }

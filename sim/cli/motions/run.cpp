@@ -55,7 +55,8 @@ run::Flight first_flight(const RunOptions& o) {
   plan.command = fmt::format("hopmesh run {} --level {}", text_of(with_host(o.words, o.host)), o.level);
   plan.check = o.check || (level.checked && !o.no_check);
   if (!o.host.empty() && !level.has_bus())
-    throw input::input_error("", 0, "--host", "level " + o.level, "a level of the array: only those have a host");
+    throw input::input_error("", 0, "--host", "level " + o.level,
+                             "a level of the array: only those have a host");
   levels::Prepared prepared = prepare(with_host(with_steps(o.words, o.steps), o.host));
   const auto folder = results_folder(o.out, prepared.inputs.scene.name);
   return {std::move(prepared), folder, plan};
@@ -93,8 +94,8 @@ void allow_resume(CLI::App& verb, RunOptions& o) {
                       "DIR: goes on with the run that was interrupted or killed there, bit for bit; "
                       "beside it only --steps (more than are done), --checkpoint-every and -j")
           ->group("Safety");
-  for (const char* told : {"SCENE", "--array", "--set", "--level", "--host", "--out", "--check", "--no-check", "--wave",
-                           "--wave-window", "--wave-cells"})
+  for (const char* told : {"SCENE", "--array", "--set", "--level", "--host", "--out", "--check", "--no-check",
+                           "--wave", "--wave-window", "--wave-cells"})
     resume->excludes(verb.get_option(told));
 }
 
@@ -109,9 +110,10 @@ void add_run(CLI::App& program, int& exit_code) {
                                fmt::join(levels::level_names(levels::sweeping), " | "),
                                fmt::join(levels::level_names({levels::Kind::rival}), " | ")))
       ->capture_default_str();
-  verb->add_option("--host", o->host,
-                   "native | rv32: who runs the firmware; rv32 counts instructions (host.processor, beside it "
-                   "host.core and others)");
+  verb->add_option(
+      "--host", o->host,
+      "native | rv32: who runs the firmware; rv32 counts instructions (host.processor, beside it "
+      "host.core and others)");
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
   auto* check = verb->add_flag("--check", o->check,

@@ -113,7 +113,7 @@ void FixedMotion::choose_units() {
   plan_.h = of_h.mantissa, plan_.h_exponent = of_h.exponent;
   plan_.most_scale = 27 - plan_.spring_places - plan_.h_exponent;
   plan_.least_scale =
-      std::max(-2 - plan_.spring_places - plan_.h_exponent, plan_.pull_exponent - 30 - plan_.spring_places);
+      std::max(-2 - plan_.spring_places - plan_.h_exponent, plan_.pull_exponent - HM_FIXED_PULL - plan_.spring_places);
 }
 
 double FixedMotion::unit() const {
@@ -141,7 +141,7 @@ void FixedMotion::add_springs() {
     }
     s.rest = in_places(from.rest_length, plan_.spring_places);
     s.stiffness = in_places(2 * from.weight * h * h / unit(), 30);
-    s.pull = in_places(2 * from.weight * h / unit(), 30 - plan_.pull_exponent);
+    s.pull = in_places(2 * from.weight * h / unit(), HM_FIXED_PULL - plan_.pull_exponent);
     s.energy = in_places(from.weight, 17 - largest);
     springs_.push_back(s);
   }
