@@ -94,7 +94,7 @@ void print(const char* preset, const std::vector<double>& ratios) {
   std::cout << '\n';
 }
 
-// Link = state: the case in which a bound is of use. It stays true with steps that swing about the rest,
+// Link = state: the case in which a bound is of use. True as well with steps that swing about the rest,
 // where neighbours' errors do not add up as the bound takes them to.
 TEST_P(BoundOfStage, holds) {
   const std::vector<double> ratios = ratios_of(GetParam(), {});
