@@ -18,6 +18,7 @@ typedef struct scales {
   uint32_t up;        /* from places of a position to those of a spring */
   uint32_t turn_down; /* from the upper word of weight times output to the bias, ... */
   int32_t turn_up;    /* ... and back, as a factor */
+  uint32_t way_down;  /* from a spring's way to the bias: places that are too many */
   int32_t longest;
   int convex;
 } scales;
@@ -95,7 +96,7 @@ static inline block stiffness_of(const hm_fixed_spring* spring, const ends* e) {
 
 /* A component of S (V0_i - V0_j) - f. */
 static inline int64_t pull_of(int32_t turn, int32_t stretch, int32_t along, int32_t pull, const scales* by) {
-  const int32_t way = hm_upper(stretch << 1, along << 2);
+  const int32_t way = hm_upper(stretch << 1, along << 2) >> by->way_down;
   return hm_product(turn >> by->turn_down, by->turn_up) - hm_product(way, pull);
 }
 
@@ -177,15 +178,18 @@ static void clear(const hm_fixed_plan* plan, hm_fixed_state* state) {
   for (uint32_t k = 0; k < 3 * plan->cells; ++k) state->bias[k] = 0;
 }
 
-/* A bias has the places of a product of a way and a pull, which counts finer at a larger scale. */
+/* A bias has the places of a product of a way and a pull, which counts finer at a larger scale, but not so
+   many that a weight times an output cannot be brought there. */
 static scales scales_of(const hm_fixed_plan* plan, hm_fixed_state* state) {
-  const int32_t turn_places = 27 + HM_FIXED_OUTPUT - 32;
-  state->bias_places = plan->spring_places + HM_FIXED_PULL - plan->pull_exponent + state->scale_exponent;
-  const int32_t up = state->bias_places - turn_places;
+  const int32_t turn_places = 27 + HM_FIXED_OUTPUT - 32, most = turn_places + 30;
+  const int32_t product = plan->spring_places + HM_FIXED_PULL - plan->pull_exponent + state->scale_exponent;
+  state->bias_places = product < most ? product : most;
+  const int32_t up = state->bias_places - turn_places, way_down = product - state->bias_places;
   return (scales){.reach = hm_fixed_reach_of(plan, state->scale_exponent),
                   .up = (uint32_t)(plan->spring_places - plan->position_places),
                   .turn_down = up < 0 ? (uint32_t)(up > -31 ? -up : 31) : 0,
-                  .turn_up = up > 0 ? 1 << (up < 30 ? up : 30) : 1,
+                  .turn_up = up > 0 ? 1 << up : 1,
+                  .way_down = (uint32_t)(way_down < 31 ? way_down : 31),
                   .longest = plan->longest,
                   .convex = (int)plan->implicit};
 }
