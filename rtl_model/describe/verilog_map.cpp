@@ -30,19 +30,22 @@ template <typename Is> std::string mask(const Is& is) {
 std::string verilog_text() {
   std::string text = "// Registers of a Hopmesh array, version " + version_text() +
                      ", for the modules of its RTL. Made by print_registers.\n// verilator lint_off UNUSED\n";
-  for (const RegisterRow& row : register_rows()) text += constant("[31:0]", "REG_" + row.name, word(row.offset));
+  for (const RegisterRow& row : register_rows())
+    text += constant("[31:0]", "REG_" + row.name, word(row.offset));
   for (const RegisterRow& row : register_rows())
     if (!row.as_built) text += constant("[31:0]", "RESET_" + row.name, word(row.reset));
   for (const RegisterRow& row : register_rows())
     for (const FieldRow& field : row.fields)
-      if (field.width < 32) text += constant("[31:0]", row.name + "_" + field.name, std::to_string(field.lowest));
+      if (field.width < 32)
+        text += constant("[31:0]", row.name + "_" + field.name, std::to_string(field.lowest));
   for (const RegisterRow& row : register_rows())
     if (row.as_built) {
       text += constant("[31:0]", "FIRST_CAPABILITY", std::to_string(row.offset / 4));
       break;
     }
   text += constant("[63:0]", "REGISTERS", mask([](const RegisterRow&) { return true; }));
-  text += constant("[63:0]", "WRITABLE", mask([](const RegisterRow& row) { return row.access != Access::RO; }));
+  text +=
+      constant("[63:0]", "WRITABLE", mask([](const RegisterRow& row) { return row.access != Access::RO; }));
   return text + "// verilator lint_on UNUSED\n";
 }
 

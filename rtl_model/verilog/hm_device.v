@@ -62,12 +62,13 @@ module hm_device #(
     output wire [         1:0] answer,
     output reg                 read_valid,
     output wire [        31:0] read_data,
-    output wire                irq
+    output wire                irq,
+    output wire                busy         // as STATUS tells
 );
   localparam CAPABILITIES = 30, WINDOWS = 6;
   localparam DONE = 2'd0, NO_ADDRESS = 2'd1, NO_LENGTH = 2'd2, NO_COMMAND = 2'd3;
   localparam FIRST_LINK = 0, LINK = 1, BIAS = 2, STATE = 3, WEIGHT = 4, MOMENTUM = 5;
-  localparam AT_WINDOWS = 22;  // among the capabilities: where windows begin
+  localparam AT_WINDOWS = 23;  // among the capabilities: where windows begin
   localparam LINE_BITS = (LINES > 1) ? $clog2(LINES) : 1;
   localparam PLACE_BITS = (PLACES > 1) ? $clog2(PLACES) : 1;
   localparam ELEMENT_BITS = (ELEMENTS > 1) ? $clog2(ELEMENTS) : 1;
@@ -104,7 +105,7 @@ module hm_device #(
   wire [31:0] words = of_hit(hits, facts[CAPABILITIES*32+:WINDOWS*32]);
   wire [31:0] count = {2'd0, bytes[31:2]};
   wire in_registers = address[31:12] == 20'd0;
-  wire exists, writable, busy;
+  wire exists, writable;
   wire found = in_registers ? exists : (|hits);
   wire writes_window = hits[BIAS] | hits[STATE] | hits[WEIGHT] | hits[MOMENTUM];
   wire good_length = (bytes != 32'd0) & (bytes[1:0] == 2'd0);

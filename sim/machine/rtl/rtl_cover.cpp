@@ -24,8 +24,7 @@ std::optional<spec::SpecFault> rtl_fault(const spec::ArraySpec& a, const spec::T
                      "\"exact\": RTL has no accumulator that rounds"};
   if (a.bus_bits != 32)
     return SpecFault{"array.bus_bits", number(a.bus_bits), "32: the bus of RTL has so many"};
-  if (a.packing)
-    return SpecFault{"array.packing", "true", "false: RTL has a word of its own for every code"};
+  if (a.packing) return SpecFault{"array.packing", "true", "false: RTL has a word of its own for every code"};
   return std::nullopt;
 }
 

@@ -36,7 +36,7 @@ RtlRoom rounded_up(const RtlRoom& room) {
     while (least < n) least *= 2;
     return least;
   };
-  return {up(4, room.taps),      up(256, room.lines),    up(64, room.rounds), up(64, room.places),
+  return {up(4, room.taps),     up(256, room.lines),    up(64, room.rounds), up(64, room.places),
           up(64, room.neurons), up(1024, room.weights), up(64, room.cells),  up(256, room.links)};
 }
 

@@ -2,8 +2,8 @@
 // facts of a network that stand at their inputs.
 #pragma once
 
-#include "rtl_model/spec/topology.h"
 #include "rtl_model/spec/array_spec.h"
+#include "rtl_model/spec/topology.h"
 
 #include <string>
 #include <vector>

@@ -107,8 +107,7 @@ BitTable Writer::lines() const {
   std::size_t line = 0;
   for (std::size_t k = 0; k < fold_.rounds.size(); ++k)
     for (const spec::Round& round : fold_.rounds[k]) {
-      for (std::size_t e = 0; e < round.count; ++e)
-        put_taps(table, line, e, fold_.order[k][round.first + e]);
+      for (std::size_t e = 0; e < round.count; ++e) put_taps(table, line, e, fold_.order[k][round.first + e]);
       line += round.accumulate;
       const bool ends_phase = &round == &fold_.rounds[k].back();
       table.put(line - 1, 0, 1, 1);
@@ -164,7 +163,8 @@ BitTable numbers(const std::string& name, int width, const std::vector<std::uint
 
 std::vector<BitTable> rtl_tables(const ArraySpec& array, const Topology& topology, const RtlRoom& room) {
   const Writer writer(array, topology, room);
-  const int first_bits = index_bits(std::max<std::size_t>(room.links, 1) + 1), cell_bits = index_bits(room.cells + 1);
+  const int first_bits = index_bits(std::max<std::size_t>(room.links, 1) + 1),
+            cell_bits = index_bits(room.cells + 1);
   return {writer.lines(),
           writer.rounds(),
           writer.weight_map(),

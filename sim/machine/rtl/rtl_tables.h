@@ -1,5 +1,5 @@
-// The tables that make an array the array of a network: what the Verilog reads with $readmemh, and a simulated
-// model is filled with.
+// The tables that make an array the array of a network: what the Verilog reads with $readmemh, and a
+// simulated model is filled with.
 #pragma once
 
 #include "sim/machine/rtl/rtl_parameters.h"
@@ -9,9 +9,9 @@ namespace hopmesh::machine {
 /// Rows of bits; row k has `words` words, its lowest bits first.
 class BitTable {
  public:
-  BitTable(std::string name, int width, std::size_t rows)
-      : name(std::move(name)), width(width), words((static_cast<std::size_t>(width) + 31) / 32), rows(rows),
-        bits_(words * rows, 0) {}
+  BitTable(std::string its_name, int bits, std::size_t count)
+      : name(std::move(its_name)), width(bits), words((static_cast<std::size_t>(bits) + 31) / 32),
+        rows(count), bits_(words * count, 0) {}
 
   /// The lowest `count` bits of `value`, from bit `at` of the row on.
   void put(std::size_t row, int at, int count, std::uint64_t value);
