@@ -1,6 +1,7 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
+#include "sim/machine/cost/array_model.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
@@ -30,8 +31,9 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
   return count;
 }
 
-void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRow& row) {
-  const machine::Timeline timeline = machine::timeline_of(array, t, {row.cycles, row.bus_cycles, row.sweeps});
+void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, std::uint64_t runs, PointRow& row) {
+  const machine::Work work{row.cycles, row.bus_cycles, row.sweeps};
+  const machine::Timeline timeline = machine::timeline_of(array, t, work);
   row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
   row.utilisation = timeline.utilisation();
   row.utilisation_with_bus = timeline.utilisation_with_bus();
@@ -39,6 +41,8 @@ void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRo
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);
+  row.area_kge = machine::area_kge(array, t);
+  row.energy_joule = machine::energy_joule(array, t, work, runs);
 }
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
@@ -63,7 +67,8 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
     row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
-  if (row.cycles > 0) add_hardware(inputs.array, mesh.topology(), row);
+  const std::uint64_t runs = row.steps * static_cast<std::uint64_t>(inputs.scene.relax.expansions);
+  if (row.cycles > 0) add_hardware(inputs.array, mesh.topology(), runs, row);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

@@ -1,5 +1,5 @@
-// What is measured of a part of an array, or predicted: a row of the table is a figure. A part is an element, an
-// output stage, or the rest: sequencer, detector, registers, bus.
+// What is measured of a part of an array, or predicted: a row of the table is a figure. A part is an element,
+// an output stage, or the rest: sequencer, detector, registers, bus.
 #pragma once
 
 #include <array>

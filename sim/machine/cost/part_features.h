@@ -1,5 +1,6 @@
-// What the cost of a part grows with, counted from the parameters of its Verilog: bits that are kept, cells of
-// multipliers, bits of adders, bits that are chosen among. The fitted model is a sum of them, each with a weight.
+// What the cost of a part grows with, counted from the parameters of its Verilog: bits that are kept, cells
+// of multipliers, bits of adders, bits that are chosen among. The fitted model is a sum of them, each with a
+// weight.
 #pragma once
 
 #include "sim/machine/cost/cost_figures.h"
