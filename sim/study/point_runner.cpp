@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/multiplies.h"
+#include "sim/machine/cost/array_model.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
@@ -23,12 +24,11 @@ std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
   return all;
 }
 
-void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, PointRow& row) {
+void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, std::uint64_t runs, PointRow& row) {
   const spec::ArraySpec& array = inputs.array;
-  const machine::Timeline timeline =
-      machine::timeline_of(array, t,
-                           {row.cycles, row.bus_cycles, row.sweeps,
-                            inputs.scene.host.known_seconds(row.instructions.value_or(0))});
+  const machine::Work work{row.cycles, row.bus_cycles, row.sweeps,
+                           inputs.scene.host.known_seconds(row.instructions.value_or(0))};
+  const machine::Timeline timeline = machine::timeline_of(array, t, work);
   row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
   row.utilisation = timeline.utilisation();
   row.utilisation_with_bus = timeline.utilisation_with_bus();
@@ -36,6 +36,8 @@ void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, PointRow
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);
+  row.area_kge = machine::area_kge(array, t);
+  row.energy_joule = machine::energy_joule(array, t, work, runs);
 }
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
@@ -62,7 +64,8 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
   if (inputs.scene.host.counts() && row.cycles > 0)
     row.instructions = run::total_of(result.rows, &StepRow::instructions, Summary::sum);
-  if (row.cycles > 0) add_hardware(inputs, mesh.topology(), row);
+  const std::uint64_t runs = row.steps * static_cast<std::uint64_t>(inputs.scene.relax.expansions);
+  if (row.cycles > 0) add_hardware(inputs, mesh.topology(), runs, row);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
