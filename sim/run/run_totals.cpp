@@ -105,8 +105,11 @@ std::vector<RunTotal> totals_about(levels::Subject subject, const StepColumns& c
   std::vector<RunTotal> all;
   for (const levels::StepColumn& column : columns)
     for (const levels::Total& total : column.totals)
-      if (column.subject == subject && total.key)
-        all.push_back({&total, is_count(column.figure, total.how), total_by(column.figure, total.how)});
+      if (column.subject == subject && total.key) {
+        const double value = total_by(column.figure, total.how);
+        if (subject == levels::Subject::certainty && value == 0) continue; // no row has it
+        all.push_back({&total, is_count(column.figure, total.how), value});
+      }
   std::stable_sort(all.begin(), all.end(),
                    [](const RunTotal& a, const RunTotal& b) { return a.total->how < b.total->how; });
   return all;

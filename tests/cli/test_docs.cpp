@@ -214,6 +214,8 @@ TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
   keys.merge(keys_in(stats["against_reference"], "against_reference."));
   const auto corrected = results_of("banner --steps 1 --set relax.refinements=1", "c");
   keys.merge(keys_in(read_json(corrected / "stats.json"), ""));
+  const auto certain = results_of("banner --steps 1 --check", "k"); // whose network is definite
+  keys.merge(keys_in(read_json(certain / "stats.json")["against_reference"], "against_reference."));
   EXPECT_EQ(named, keys);
   for (const auto& item : stats["ranges"][0].items()) EXPECT_THAT(text, HasSubstr('`' + item.key() + '`'));
 }

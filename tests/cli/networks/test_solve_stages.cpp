@@ -48,8 +48,8 @@ TEST_F(CliSolveStages, CorrectionsTakeAnswersBeyondTheWords) {
   for (const std::string level : {"reference", "engine", "systemc"})
     for (const std::string rule : {"projected", "momentum --set array.schedule=synchronous"}) {
       const std::string line = "solve box-random-100 --level " + level + " --rule " + rule;
-      good(line + " --out plain");
-      const std::string text = good(line + " --refinements 12 --out refined").out;
+      hopmesh(line + " --out plain"); // over-relaxation may ring in words of 16 bits, which corrections mend
+      const std::string text = hopmesh(line + " --refinements 12 --out refined").out;
       const auto plain = summary_of("plain"), refined = summary_of("refined");
       EXPECT_FALSE(plain.contains("corrections"));
       EXPECT_GT(refined["corrections"]["kept"].get<int>(), 0) << line;
@@ -59,7 +59,7 @@ TEST_F(CliSolveStages, CorrectionsTakeAnswersBeyondTheWords) {
       EXPECT_EQ(content_of(at("plain/solve.csv")), content_of(at("refined/solve.csv")))
           << "of the first answer";
       EXPECT_THAT(text,
-                  ::testing::ContainsRegex("corrections? in [0-9,]+ more sweeps?, [01] refused; residual "));
+                  ::testing::ContainsRegex("corrections? in [0-9,]+ sweeps? more, [01] refused; residual "));
     }
 }
 
