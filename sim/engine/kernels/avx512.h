@@ -86,10 +86,11 @@ struct Avx512 {
     return _mm512_mask_sub_epi32(sum, _mm512_movepi32_mask(s), sum, x);
   }
   static Words high_products(Words s, const std::int32_t* b, Longs add) {
+    // An upper half comes down by a shuffle, since shifts have one port only.
     const Longs even = _mm512_mul_epi32(s, load_words(b));
-    const Longs odd = _mm512_mul_epi32(_mm512_srli_epi64(s, 32), load_words(b + 1));
-    return _mm512_mask_blend_epi32(0xAAAA, _mm512_srli_epi64(_mm512_add_epi64(even, add), 32),
-                                   _mm512_add_epi64(odd, add));
+    const Longs odd = _mm512_mul_epi32(_mm512_shuffle_epi32(s, _MM_PERM_DDBB), load_words(b + 1));
+    return _mm512_mask_shuffle_epi32(_mm512_add_epi64(odd, add), 0x5555, _mm512_add_epi64(even, add),
+                                     _MM_PERM_DDBB);
   }
   static Words add_magnitudes(Words sum, Words a) {
     const Words ones = _mm512_set1_epi16(1), signs = _mm512_srai_epi16(a, 15);

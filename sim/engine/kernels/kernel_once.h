@@ -44,38 +44,51 @@ template <typename Isa> struct KernelOnce : KernelSlim<Isa> {
     return r;
   }
 
-  /// s of sixteen cells.
+  /// Outputs of sixteen cells, and what those on one way, or on two, show.
+  template <int P> [[gnu::always_inline]] static Three links(const std::uint32_t* at, std::size_t stride) {
+    return each<P>([&](std::size_t p)
+                       __attribute__((always_inline)) { return Isa::load_links(at + p * stride); });
+  }
+  template <int P>
+  [[gnu::always_inline]] static Three links(const std::uint32_t* at, const OncePair& pair,
+                                            std::size_t stride) {
+    const std::uint32_t *const low = at + pair.way[0], *const high = at + pair.way[1];
+    return each<P>([&](std::size_t p)
+                       __attribute__((always_inline)) { return both(low + p * stride, high + p * stride); });
+  }
+
+  /// s of sixteen cells. Planes are reached from the first and the fourth, as a processor adds up addresses.
   template <int P> [[gnu::always_inline]] static Three sums(const OnceArgs& o, std::size_t block) {
     const std::size_t slot = 16 * block, plane = o.stride, component = o.link_stride;
     const std::uint32_t *const own = o.weight + slot, *const link = o.link + slot;
+    const auto plane_of = [plane](const std::uint32_t* first, const std::uint32_t* fourth, std::size_t k)
+        __attribute__((always_inline)) {
+      return k < 3 ? first + k * plane : fourth + (k - 3) * plane;
+    };
     Three s = each<P>([&](std::size_t p) __attribute__((always_inline)) {
       return Isa::load_words(o.bias + (P * block + p) * 16);
     });
     add<P>(
-        s, each<P>([&](std::size_t p) __attribute__((always_inline)) {
-          return Isa::load_links(link + p * component);
-        }),
-        [&](std::size_t k) __attribute__((always_inline)) { return Isa::load_words(own + k * plane); });
+        s, links<P>(link, component), [&](std::size_t k) __attribute__((always_inline)) {
+          return Isa::load_words(plane_of(own, own + 3 * plane, k));
+        });
     const OnceList& list = o.lists[o.list_of_block[block]];
-    for (const OncePair *pair = o.pairs + list.first, *end = o.pairs + list.middle; pair != end; ++pair) {
-      const std::uint32_t *const w = own + pair->planes * plane, *const low = link + pair->way[0],
-                                 *const high = link + pair->way[1];
+    const OncePair *pair = o.pairs + list.first, *const middle = o.pairs + list.middle,
+                   *const last = o.pairs + list.last;
+    for (; pair != middle; ++pair) {
+      const std::uint32_t *const first = own + pair->planes, *const fourth = first + 3 * plane;
       add<P>(
-          s, each<P>([&](std::size_t p) __attribute__((always_inline)) {
-            return both(low + p * component, high + p * component);
-          }),
-          [&](std::size_t k) __attribute__((always_inline)) { return Isa::load_words(w + k * plane); });
+          s, links<P>(link, *pair, component), [&](std::size_t k) __attribute__((always_inline)) {
+            return Isa::load_words(plane_of(first, fourth, k));
+          });
     }
-    for (const OncePair *pair = o.pairs + list.middle, *end = o.pairs + list.last; pair != end; ++pair) {
-      const std::uint32_t *const w = own + pair->planes * plane, *const low = link - pair->way[0],
-                                 *const high = link - pair->way[1];
-      const std::uint32_t *const w_low = w - pair->way[0], *const w_high = w - pair->way[1];
+    for (; pair != last; ++pair) {
+      const std::uint32_t *const low = own + pair->planes + pair->way[0], *const low_4 = low + 3 * plane;
+      const std::uint32_t *const high = own + pair->planes + pair->way[1], *const high_4 = high + 3 * plane;
       add<P>(
-          s, each<P>([&](std::size_t p) __attribute__((always_inline)) {
-            return both(low + p * component, high + p * component);
-          }),
-          [&](std::size_t k)
-              __attribute__((always_inline)) { return both(w_low + k * plane, w_high + k * plane); });
+          s, links<P>(link, *pair, component), [&](std::size_t k) __attribute__((always_inline)) {
+            return both(plane_of(low, low_4, k), plane_of(high, high_4, k));
+          });
     }
     return s;
   }
@@ -86,8 +99,9 @@ template <typename Isa> struct KernelOnce : KernelSlim<Isa> {
     while (first < last) {
       const std::size_t end = last - first < a.slim_blocks ? last : first + a.slim_blocks;
       Slim c(a);
+      Three s = sums<P>(a.once, first);
       for (; first < end; ++first) {
-        const Three s = sums<P>(a.once, first);
+        const Three coming = sums<P>(a.once, first + 1 < end ? first + 1 : first);
         std::uint32_t* const next = a.once.next_link + 16 * first;
         const auto publish = [&](Words sum, std::size_t p) __attribute__((always_inline)) {
           const Words link =
@@ -97,6 +111,7 @@ template <typename Isa> struct KernelOnce : KernelSlim<Isa> {
         publish(s.x, 0);
         if constexpr (P > 1) publish(s.y, 1);
         if constexpr (P > 2) publish(s.z, 2);
+        s = coming;
       }
       c.store_extremes(extremes);
     }

@@ -56,7 +56,7 @@ template <typename Isa> struct KernelPack : KernelOnce<Isa> {
                     [&](std::size_t plane, const Words& w) { Isa::store_words(own + plane * o.stride, w); });
     for (std::uint32_t k = list.first; k < list.middle; ++k)
       visit_planes<P>(from.weight, from.taps[k - list.first], differ, [&](std::size_t plane, const Words& w) {
-        Isa::store_words(own + (o.pairs[k].planes + plane) * o.stride, w);
+        Isa::store_words(own + o.pairs[k].planes + plane * o.stride, w);
       });
     return any(differ);
   }
@@ -69,8 +69,8 @@ template <typename Isa> struct KernelPack : KernelOnce<Isa> {
     for (std::uint32_t k = list.middle; k < list.last; ++k) {
       const OncePair& pair = o.pairs[k];
       visit_planes<P>(from.weight, from.taps[k - list.first], differ, [&](std::size_t plane, const Words& w) {
-        const std::uint32_t* const kept = o.weight + 16 * block + (pair.planes + plane) * o.stride;
-        note(differ, w, KernelOnce<Isa>::both(kept - pair.way[0], kept - pair.way[1]));
+        const std::uint32_t* const kept = o.weight + 16 * block + pair.planes + plane * o.stride;
+        note(differ, w, KernelOnce<Isa>::both(kept + pair.way[0], kept + pair.way[1]));
       });
     }
     return any(differ);

@@ -13,8 +13,8 @@ namespace hopmesh::engine {
 /// of words by slot, W[p][q] toward slot + way[0] below, toward slot + way[1] above. So a cell finds its
 /// weights from slot - way there.
 struct OncePair {
-  std::uint32_t planes; ///< the first of its planes
-  std::uint32_t way[2];
+  std::ptrdiff_t planes; ///< the first of its planes, in words from the cells' own
+  std::ptrdiff_t way[2]; ///< below zero in a list's backward part
 };
 /// What cells of a block are linked with: pairs [first, middle) forward, [middle, last) backward.
 struct OnceList {

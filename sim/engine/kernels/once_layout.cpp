@@ -72,8 +72,10 @@ void OnceLayout::list_blocks(const Layout& layout, const FastLayout& fast) {
     if (!is_new) continue;
     const auto first = static_cast<std::uint32_t>(pairs_.size());
     for (std::size_t k = 0; k + 1 < list.size(); ++k) {
-      const std::uint32_t one = ways_[2 * list[k]], other = ways_[2 * list[k] + 1];
-      pairs_.push_back({static_cast<std::uint32_t>((1 + list[k]) * kinds_), {one, other ? other : one}});
+      const std::ptrdiff_t one = ways_[2 * list[k]], other = ways_[2 * list[k] + 1],
+                           sign = k < forward ? 1 : -1;
+      pairs_.push_back({static_cast<std::ptrdiff_t>((1 + list[k]) * kinds_ * stride_),
+                        {sign * one, sign * (other ? other : one)}});
     }
     lists_.push_back(
         {first, first + static_cast<std::uint32_t>(forward), static_cast<std::uint32_t>(pairs_.size())});
