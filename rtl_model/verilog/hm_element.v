@@ -72,7 +72,7 @@ module hm_element #(
           .WIDTH(LINK_WORD),
           .DEPTH(LINK_DEPTH),
           .ADDRESS(LINK_ADDRESS)
-      ) memory (
+      ) links_of (
           .clock(clock),
           .write(link_write[k]),
           .write_address(link_address),

@@ -31,7 +31,7 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/machine", {"rtl_model/spec", "sim/input", "sim/pictures"}},
     {"sim/levels",
      {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/input", "sim/scene", "sim/reference",
-      "sim/rivals", "sim/engine", "sim/files"}},
+      "sim/rivals", "sim/engine", "sim/files", "sim/machine"}},
     {"sim/run",
      {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/machine", "sim/levels"}},
     {"sim/cosim", {"rtl_model/spec", "sim/input", "sim/files", "sim/levels", "sim/run"}},
