@@ -1,5 +1,6 @@
-// How fast the array is at register-transfer level: the RTL of rtl_model/verilog as the level `rtl` simulates it, beside
-// the levels that do the same work to the bit and to the cycle. A single process, turns at random, like bench_array.
+// How fast the array is at register-transfer level: the RTL of rtl_model/verilog as the level `rtl` simulates
+// it, beside the levels that do the same work to the bit and to the cycle. A single process, turns at random,
+// like bench_array.
 #include "sim/engine/engine.h"
 #include "sim/levels/bus_array.h"
 #include "sim/levels/level.h"
