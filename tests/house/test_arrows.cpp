@@ -21,6 +21,7 @@ const std::map<std::string, Rooms> allowed = {
     {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
     {"rtl_model/describe", {"firmware/registers.h"}},
+    {"rtl_model/verilog", {}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},

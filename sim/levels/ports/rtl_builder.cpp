@@ -114,7 +114,7 @@ fs::path verilator_include(const fs::path& verilator, const fs::path& folder) {
   return fs::path(root) / "include";
 }
 
-/// One source that includes all of a model: compiled at once, it is optimised at once.
+/// A source that includes all of a model: what is compiled at once is optimised at once.
 std::string whole_model(const fs::path& made, const fs::path& include) {
   std::string text;
   for (const auto& entry : fs::directory_iterator(made))
