@@ -51,10 +51,22 @@ Setting LeastSetting::halved(const Setting& start, int passes, int fails) {
   return cut_to(start, passes);
 }
 
+// A good guess is a few levels above the least: level by level, past a single failure, as luck is not
+// monotone.
+Setting LeastSetting::walked_down(const Setting& start, int level) {
+  int least = level;
+  for (int failed = 0; level > 1 && failed < 2;) {
+    const bool passes = ask(cut_to(start, --level)).passes;
+    failed = passes ? 0 : failed + 1;
+    if (passes) least = level;
+  }
+  return cut_to(start, least);
+}
+
 // Where even the start fails, luck may still lie below.
 std::optional<Setting> LeastSetting::start_of(const Setting& start, std::optional<int> guess) {
   const int top = *std::max_element(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(knobs_));
-  const bool guessed = guess && *guess < top, good = guessed && ask(cut_to(start, *guess)).passes;
+  const bool good = guess && *guess < top && ask(cut_to(start, *guess)).passes;
   if (!good && !ask(start).passes) {
     std::vector<Setting> cuts;
     for (int level = top - 2; level > 0; level -= 2) cuts.push_back(cut_to(start, level));
@@ -64,8 +76,8 @@ std::optional<Setting> LeastSetting::start_of(const Setting& start, std::optiona
     return std::nullopt;
   }
   if (ask(cut_to(start, 0)).passes) return cut_to(start, 0);
-  if (good) return halved(start, *guess, 0);
-  return halved(start, top, guessed ? *guess : 0);
+  if (good) return walked_down(start, *guess);
+  return halved(start, top, 0); // as if nobody had guessed: narrower ones may pass by luck
 }
 
 std::optional<Setting> LeastSetting::next(const Setting& at, int by) {

@@ -42,6 +42,7 @@ class LeastSetting {
   Setting cut_to(const Setting& start, int level) const;
   std::optional<Setting> start_of(const Setting& start, std::optional<int> guess);
   Setting halved(const Setting& start, int passes, int fails);
+  Setting walked_down(const Setting& start, int level);
   std::optional<Setting> next(const Setting& at, int by);
   Setting descended(Setting at, int stride);
   std::optional<Setting> cheaper_than(const Setting& at, const std::vector<Setting>& tried) const;
