@@ -29,7 +29,7 @@ module hm_divide #(
   localparam SIZE_BITS = SUM_BITS - 1 + ((FACTOR == 1) ? 0 : FACTOR_BITS);
   localparam DIVISOR_BITS = NORM_BITS + NORM_UP + FACTOR_DOWN + ABOVE;
   localparam REST_BITS = ((SIZE_BITS > DIVISOR_BITS) ? SIZE_BITS : DIVISOR_BITS) + 1;
-  localparam [FACTOR_BITS-1:0] OMEGA = FACTOR;
+  localparam [31:0] OMEGA = FACTOR;
   localparam STEP_BITS = REST_BITS + 1;
 
   // {bit, rest}. Once the first bit is 1, u is at its bound and the further bits do not count.
@@ -72,7 +72,7 @@ module hm_divide #(
     if (FACTOR == 1) begin : no_factor
       assign dividend = front_size;
     end else begin : factor
-      assign dividend = {{FACTOR_BITS{1'b0}}, front_size} * {{(SUM_BITS - 1) {1'b0}}, OMEGA};
+      assign dividend = {{FACTOR_BITS{1'b0}}, front_size} * {{(SUM_BITS - 1) {1'b0}}, OMEGA[FACTOR_BITS-1:0]};
     end
     if (PIPELINED != 0) begin : pipeline
       // Register k has k + 1 bits of the quotient.

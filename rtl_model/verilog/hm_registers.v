@@ -78,6 +78,10 @@ module hm_registers #(
   wire [1:0] raised = {refused, done};
   assign irq = |(causes & enabled);
 
+  // verilator lint_off UNUSED
+  wire [STATE_BITS+32:0] wide_change = {32'd0, largest_change};
+  // verilator lint_on UNUSED
+
   initial begin
     {is_busy, is_done, is_converged, is_aborted, starts, resets, is_held_low} = 7'd0;
     {causes, enabled} = 4'd0;
@@ -99,7 +103,7 @@ module hm_registers #(
       {is_busy, is_done, is_converged, is_aborted} <= {1'b0, 1'b1, converged, aborted | cut_short};
       kept_sweeps <= sweeps;
       kept_cycles <= cycles;
-      kept_change <= {{(31 - STATE_BITS) {1'b0}}, largest_change};
+      kept_change <= wide_change[31:0];
       kept_sum <= {{(65 - SUM_BITS) {1'b0}}, largest_sum};
     end
     if (writes) begin

@@ -30,7 +30,7 @@ module hm_scale_reciprocal #(
   // In the aligned product, N has its highest bit at the top: so many places down to the drive's last one.
   localparam DOWN = SIZE_BITS + MANTISSA - 2 - DRIVE_FRACTION + FACTOR_DOWN;
   localparam ROUNDED_BITS = ((ALIGNED_BITS - DOWN) < UNIT) ? UNIT + 2 : ALIGNED_BITS - DOWN + 2;
-  localparam [FACTOR_BITS-1:0] OMEGA = FACTOR;
+  localparam [31:0] OMEGA = FACTOR;
 
   wire front_negative, product_negative, shift_negative;
   wire [SIZE_BITS-1:0] front_size;
@@ -54,7 +54,7 @@ module hm_scale_reciprocal #(
     if (FACTOR == 1) begin : no_factor
       assign product = plain;
     end else begin : factor
-      assign product = {{FACTOR_BITS{1'b0}}, plain} * {{(SIZE_BITS + MANTISSA) {1'b0}}, OMEGA};
+      assign product = {{FACTOR_BITS{1'b0}}, plain} * {{(SIZE_BITS + MANTISSA) {1'b0}}, OMEGA[FACTOR_BITS-1:0]};
     end
     if (BOUNDED != 0) begin : narrow
       assign aligned = kept_product << product_shift;

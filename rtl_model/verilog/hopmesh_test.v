@@ -65,7 +65,7 @@ module hopmesh_test;
       if (beat) begin
         sent = sent + 1;
         line = script[at + sent];
-        write_data = (count > 1 || script[at][67:64] == WRITES) ? line[31:0] : write_data;
+        if (script[at][67:64] == WRITES) write_data = line[31:0];
       end
       if (last) begin
         moving = 1'b0;
@@ -83,7 +83,7 @@ module hopmesh_test;
         at = at + 1 + count;
       end
     end
-    if (!moving && !reading && !ended) begin
+    if (ready && !moving && !reading && !ended) begin
       line = script[at];
       waits = 1'b0;
       case (line[67:64])

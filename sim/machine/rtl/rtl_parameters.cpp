@@ -31,13 +31,22 @@ RtlRoom rtl_room(const ArraySpec& a, const Topology& t) {
   return room;
 }
 
-RtlRoom rounded_up(const RtlRoom& room) {
-  const auto up = [](std::size_t least, std::size_t n) {
-    while (least < n) least *= 2;
-    return least;
+RtlRoom usual_room(const ArraySpec& a, const RtlRoom& least) {
+  const auto up = [](std::size_t usual, std::size_t n) {
+    while (usual < n) usual *= 2;
+    return usual;
   };
-  return {up(4, room.taps),     up(256, room.lines),    up(64, room.rounds), up(64, room.places),
-          up(64, room.neurons), up(1024, room.weights), up(64, room.cells),  up(256, room.links)};
+  // About what the flag of 400 nodes takes.
+  const std::size_t neurons = up(2048, least.neurons), weights = up(32768, least.weights);
+  const std::size_t elements = static_cast<std::size_t>(std::max(a.elements, 1));
+  return {up(256, least.taps),
+          up(4096, std::max(least.lines, weights / elements)),
+          up(2048, least.rounds),
+          up(2048, least.places),
+          neurons,
+          weights,
+          up(1024, least.cells),
+          up(4096, least.links)};
 }
 
 std::vector<RtlParameter> rtl_parameters(const ArraySpec& a, const RtlRoom& room) {

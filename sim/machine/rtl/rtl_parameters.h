@@ -20,8 +20,9 @@ struct RtlRoom {
   std::size_t neurons = 1, weights = 1, cells = 1, links = 0;
 };
 RtlRoom rtl_room(const spec::ArraySpec& array, const spec::Topology& topology);
-/// At least as large, in steps of powers of two.
-RtlRoom rounded_up(const RtlRoom& room);
+/// Room for any network that a simulated array is asked for now and then, and for more in powers of two: so
+/// one model serves most of them.
+RtlRoom usual_room(const spec::ArraySpec& array, const RtlRoom& least = {});
 
 struct RtlParameter {
   std::string name;

@@ -110,7 +110,8 @@ std::vector<std::string> rtl_files() {
 std::string yosys_text(const std::string& family, const std::string& top) {
   std::string text = "# yosys -s " + family + ".ys\n";
   for (const std::string& file : rtl_files()) text += "read_verilog -sv -Irtl " + file + "\n";
-  return text + fmt::format("synth_{0} -top {1} -json {0}.json\ncheck -assert\nstat\n", family, top);
+  return text +
+         fmt::format("synth_{0} -top {1} -json {0}.json\ncheck -assert\ntee -o {0}.txt stat\n", family, top);
 }
 
 std::string rtl_readme_text(const spec::ArraySpec& array, const spec::Topology& topology,
