@@ -1,7 +1,7 @@
 #include "sim/study/point_runner.h"
 
 #include "rtl_model/spec/schedule.h"
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"

@@ -1,5 +1,5 @@
 // The cost model: what it learns from, how it learns, and how far off it is for arrays that it has not seen.
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/cost/part_synthesis.h"
 
 #include "rtl_model/spec/presets.h"

@@ -80,7 +80,7 @@ Energy silicon_energy(const Activity& a, const CostPoint& parts, const Toggles& 
   Energy e;
   for (const Part part : {Part::element, Part::stage, Part::rest})
     e.clock += a.all_cycles * count_of(part, parts.parameters) * of(part, Figure::idle_pj) * pico;
-  // Both were weighed with a quarter of the bits.
+  // Parts were weighed with a quarter of the bits changing.
   const double inputs = (toggles.weights + toggles.links) / 2 / 0.25;
   e.arithmetic = a.products * of(Part::element, Figure::active_pj) * inputs * pico +
                  a.firings * of(Part::stage, Figure::active_pj) * 0.5 / 0.25 * pico +

@@ -3,7 +3,7 @@
 #include "sim/files/output_file.h"
 #include "sim/input/count_text.h"
 #include "sim/levels/array_port.h"
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/cost/part_synthesis.h"
 #include "sim/machine/cost/placement.h"
 #include "sim/machine/rtl/rtl_cover.h"
