@@ -31,6 +31,11 @@ std::uint64_t multiplies_a_sweep(const spec::ArraySpec& array, const spec::Topol
   return count;
 }
 
+/// Empty where the model has nothing to go by.
+Maybe known(double figure) {
+  return std::isnan(figure) ? Maybe{} : Maybe{figure};
+}
+
 void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, std::uint64_t runs, PointRow& row) {
   const machine::Work work{row.cycles, row.bus_cycles, row.sweeps};
   const machine::Timeline timeline = machine::timeline_of(array, t, work);
@@ -41,8 +46,8 @@ void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, std::ui
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);
-  row.area_kge = machine::area_kge(array, t);
-  row.energy_joule = machine::energy_joule(array, t, work, runs);
+  row.area_kge = known(machine::area_kge(array, t));
+  row.energy_joule = known(machine::energy_joule(array, t, work, runs));
 }
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

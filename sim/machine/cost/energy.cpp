@@ -43,7 +43,9 @@ Accesses accesses_of(const MemoryShape& m, const Activity& a, const Parts& parts
   if (what == "links") return {a.products, a.firings * static_cast<double>(parts.link_memories)};
   if (what == "states") return {a.firings * double(parts.points), a.firings * double(parts.points)};
   if (what == "table of m") return {sweeps, 0};
-  if (what == "table") return {m.depth > 1 && m.width > 64 ? sweeps * lines : 0, 0};
+  if (what == "lines") return {sweeps * lines, 0};
+  if (what == "table")
+    return {}; // but for rounds, of which there are few, read by the host's transfers alone
   return {a.firings, 0};
 }
 
