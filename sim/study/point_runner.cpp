@@ -2,7 +2,7 @@
 
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/multiplies.h"
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
@@ -24,6 +24,11 @@ std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
   return all;
 }
 
+/// Empty where the model has nothing to go by.
+Maybe known(double figure) {
+  return std::isnan(figure) ? Maybe{} : Maybe{figure};
+}
+
 void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, std::uint64_t runs, PointRow& row) {
   const spec::ArraySpec& array = inputs.array;
   const machine::Work work{row.cycles, row.bus_cycles, row.sweeps,
@@ -36,8 +41,8 @@ void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, std::uin
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);
-  row.area_kge = machine::area_kge(array, t);
-  row.energy_joule = machine::energy_joule(array, t, work, runs);
+  row.area_kge = known(machine::area_kge(array, t));
+  row.energy_joule = known(machine::energy_joule(array, t, work, runs));
 }
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

@@ -33,7 +33,7 @@ Normal normal_of(const std::vector<std::vector<double>>& rows, const std::vector
 
 } // namespace
 
-// One weight after the other goes where it is best: a descent that the bound at 0 does not hinder.
+// Weights go where they are best in turn: a descent that the bound at 0 does not hinder.
 std::vector<double> least_squares(const std::vector<std::vector<double>>& rows,
                                   const std::vector<double>& values) {
   const Normal m = normal_of(rows, values);

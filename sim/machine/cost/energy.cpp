@@ -43,7 +43,9 @@ Accesses accesses_of(const MemoryShape& m, const Activity& a, const Parts& parts
   if (what == "links") return {a.products, a.firings * static_cast<double>(parts.link_memories)};
   if (what == "states") return {a.firings * double(parts.points), a.firings * double(parts.points)};
   if (what == "table of m") return {sweeps, 0};
-  if (what == "table") return {m.depth > 1 && m.width > 64 ? sweeps * lines : 0, 0};
+  if (what == "lines") return {sweeps * lines, 0};
+  if (what == "table")
+    return {}; // but for rounds, of which there are few, read by the host's transfers alone
   return {a.firings, 0};
 }
 
@@ -80,7 +82,7 @@ Energy silicon_energy(const Activity& a, const CostPoint& parts, const Toggles& 
   Energy e;
   for (const Part part : {Part::element, Part::stage, Part::rest})
     e.clock += a.all_cycles * count_of(part, parts.parameters) * of(part, Figure::idle_pj) * pico;
-  // Both were weighed with a quarter of the bits.
+  // Parts were weighed with a quarter of the bits changing.
   const double inputs = (toggles.weights + toggles.links) / 2 / 0.25;
   e.arithmetic = a.products * of(Part::element, Figure::active_pj) * inputs * pico +
                  a.firings * of(Part::stage, Figure::active_pj) * 0.5 / 0.25 * pico +

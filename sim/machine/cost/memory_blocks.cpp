@@ -37,7 +37,8 @@ std::uint64_t wide(const spec::NumberFormat& format) {
 void add_tables(const spec::ArraySpec& array, const spec::Topology& topology, std::vector<MemoryShape>& all) {
   if (!spec::is_folded(array)) return;
   for (const BitTable& table : rtl_tables(array, topology, rtl_room(array, topology)))
-    all.push_back({"table", 1, static_cast<std::uint64_t>(table.width), table.rows, true});
+    all.push_back({table.name == "LINES" ? "lines" : "table", 1, static_cast<std::uint64_t>(table.width),
+                   table.rows, true});
 }
 
 } // namespace

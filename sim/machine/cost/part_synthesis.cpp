@@ -170,6 +170,7 @@ bool PartMeasurer::synthesise(const std::string& name, Part part, Target target,
     write(folder_ / "drive.xdc", "set_driving_cell INVX1\nset_load 0.1 [all_outputs]\n");
     script += fmt::format("synth -flatten -top part\ndfflibmap -liberty {0}\n"
                           "abc -liberty {0} -constr cost/drive.xdc -D 8000\nopt_clean -purge\n"
+                          "splitnets -ports\nsetundef -zero\nopt_clean -purge\n"
                           "tee -q -o cost/{1}.stat stat -liberty {0}\nwrite_verilog -noattr cost/{1}.v\n",
                           tools_.liberty, name);
   }

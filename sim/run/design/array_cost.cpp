@@ -3,11 +3,12 @@
 #include "sim/files/output_file.h"
 #include "sim/input/count_text.h"
 #include "sim/levels/array_port.h"
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/cost/part_synthesis.h"
 #include "sim/machine/cost/placement.h"
 #include "sim/machine/rtl/rtl_cover.h"
 #include "sim/run/design/rtl_design.h"
+#include "sim/run/design/toggle_count.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -28,6 +29,8 @@ std::string plain(double value) {
   if (value >= 1000) return grouped(static_cast<std::uint64_t>(std::llround(value)));
   return fmt::format("{:.4g}", value);
 }
+
+constexpr std::uint64_t counted_steps = 5; ///< the bits that change are those of the last one
 
 /// What is known of an array: measured parts, NaN where there are none, beside what the model says.
 struct Known {
@@ -107,11 +110,12 @@ void add_silicon(Report& report, const Known& known, const machine::MemoryBlocks
   static_cast<void>(known);
 }
 
-void add_energy(Report& report, const Known& known, const machine::Activity& activity) {
+void add_energy(Report& report, const Known& known, const machine::Activity& activity,
+                const machine::Toggles& toggles) {
   CostPoint parts = known.model;
   const bool weighed = known.has(Figure::active_pj);
   if (weighed) parts = known.measured;
-  const machine::Energy ours = machine::silicon_energy(activity, parts, {});
+  const machine::Energy ours = machine::silicon_energy(activity, parts, toggles);
   const machine::Energy table = machine::table_energy(activity, parts.parameters);
   const char* origin = "model";
   report.add("energy, 0.18 um and 1.8 V", 1e6 * ours.total(), "uJ", origin);
@@ -120,17 +124,25 @@ void add_energy(Report& report, const Known& known, const machine::Activity& act
   report.add("  memories", 1e6 * ours.memory, "uJ", origin);
   report.add("  bus", 1e6 * ours.bus, "uJ", origin);
   report.add("energy by the published table, 45 nm and 0.9 V", 1e6 * table.total(), "uJ", origin);
+  report.line("bits that change at a multiplier",
+              fmt::format("weights {:.0f} %, links {:.0f} %, counted over {} of the motion",
+                          100 * toggles.weights, 100 * toggles.links,
+                          input::with_noun(counted_steps, "step")));
+  report.json()["toggles"] = {{"weights", toggles.weights}, {"links", toggles.links}};
   report.json()["energy_parts_weighed"] = weighed;
 }
 
-void add_step(Report& report, const Known& known, const spec::ArraySpec& array,
-              const spec::Topology& topology, const StepLoad& step) {
+void add_step(Report& report, const Known& known, const levels::Prepared& p, const StepLoad& step) {
+  const spec::ArraySpec& array = p.inputs.array;
+  const spec::Topology& topology = p.mesh->topology();
   const machine::Work work = machine::work_of(array, topology, step.runs, step.sweeps, levels::longest_burst);
   const machine::Timeline time = machine::timeline_of(array, topology, work);
   report.begin("A step of " + input::with_noun(step.sweeps, "sweep"));
   report.add("time", 1e3 * time.time().seconds(array.clock_mhz), fmt::format("ms at {} MHz", array.clock_mhz),
              "model");
-  add_energy(report, known, machine::activity_of(array, topology, work, step.runs));
+  add_energy(report, known, machine::activity_of(array, topology, work, step.runs),
+             count_toggles(p, std::min<std::uint64_t>(
+                                  counted_steps, static_cast<std::uint64_t>(p.inputs.scene.motion.steps))));
   report.add("utilisation", time.utilisation(), "", "model");
   report.add("utilisation with the bus", time.utilisation_with_bus(), "", "model");
 }
@@ -234,7 +246,7 @@ CostReport array_cost(const levels::Prepared& p, const CostOrder& order,
   const machine::MemoryBlocks blocks = machine::memory_blocks(machine::memories_of(array, topology));
   add_fpga(report, known, blocks);
   add_silicon(report, known, blocks);
-  add_step(report, known, array, topology, order.step);
+  add_step(report, known, p, order.step);
   if (placed) add_placement(report, *placed);
   result.tables = report.tables();
   report.json()["notes"] = result.notes;

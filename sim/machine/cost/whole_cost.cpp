@@ -1,4 +1,4 @@
-#include "sim/machine/cost/array_model.h"
+#include "sim/machine/cost/whole_cost.h"
 
 namespace hopmesh::machine {
 
