@@ -2,8 +2,8 @@
 #include "firmware/doubles.h"
 #include "firmware/driver_parts.h"
 
-static uint32_t whole_places(double threshold, const hm_format* format) {
-  const hm_format places = {32, 32 - hm_fraction_bits(format), HM_TRN_ZERO, HM_SAT};
+uint32_t hm_driver_places(const hm_driver* d, double threshold) {
+  const hm_format places = {32, 32 - hm_fraction_bits(&d->state), HM_TRN_ZERO, HM_SAT};
   int clipped;
   return (uint32_t)hm_quantise(threshold, 0, &places, &clipped);
 }
@@ -201,8 +201,8 @@ static int load_outputs(hm_driver* d, const hm_mesh* mesh, const hm_network* net
 
 /* ---- one relaxation ---- */
 
-static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_sweeps) {
-  TRY(hm_write_register(d, HM_REG_THRESHOLD, whole_places(threshold, &d->state)));
+int hm_driver_start(const hm_driver* d, uint32_t threshold, uint32_t max_sweeps) {
+  TRY(hm_write_register(d, HM_REG_THRESHOLD, threshold));
   TRY(hm_write_register(d, HM_REG_MAX_SWEEPS, max_sweeps));
   TRY(hm_write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE)); /* left over from a run that nobody waited for */
   TRY(hm_write_register(d, HM_REG_CONTROL, HM_CONTROL_START));
@@ -210,7 +210,7 @@ static int start_and_wait(const hm_driver* d, double threshold, uint32_t max_swe
   return hm_write_register(d, HM_REG_IRQ_STATUS, HM_IRQ_DONE);
 }
 
-static int read_counters(const hm_driver* d, hm_relaxation* result) {
+int hm_driver_read_counters(const hm_driver* d, hm_relaxation* result) {
   uint32_t status, low, high;
   TRY(hm_read_register(d, HM_REG_STATUS, &status));
   if (!(status & HM_STATUS_DONE)) return HM_ERROR_BUSY;
@@ -227,7 +227,7 @@ static int read_outputs(const hm_driver* d, const hm_mesh* mesh, hm_network* net
   return hm_window_read(&d->line, &d->outputs, last_place, network->output, hm_neuron_count(mesh));
 }
 
-static int expect_idle(const hm_driver* d) {
+int hm_driver_expect_idle(const hm_driver* d) {
   uint32_t status;
   TRY(hm_read_register(d, HM_REG_STATUS, &status));
   return status & HM_STATUS_BUSY ? HM_ERROR_BUSY : HM_OK;
@@ -235,8 +235,8 @@ static int expect_idle(const hm_driver* d) {
 
 static int run(const hm_driver* d, const hm_mesh* mesh, hm_network* network, double threshold,
                uint32_t max_sweeps, hm_relaxation* result) {
-  TRY(start_and_wait(d, threshold, max_sweeps));
-  TRY(read_counters(d, result));
+  TRY(hm_driver_start(d, hm_driver_places(d, threshold), max_sweeps));
+  TRY(hm_driver_read_counters(d, result));
   return read_outputs(d, mesh, network);
 }
 
@@ -250,7 +250,7 @@ int hm_driver_relax(void* driver, const hm_mesh* mesh, hm_network* network, doub
     return HM_ERROR_NUMBER;
   d->shift = hm_driver_prescales(d) ? 0 : block_exponent(d, value_of(weight), value_of(bias));
   d->clipped = d->vanished = 0;
-  TRY(expect_idle(d));
+  TRY(hm_driver_expect_idle(d));
   TRY(load_rows(d, mesh, network, d->shift));
   TRY(load_outputs(d, mesh, network));
   TRY(hm_driver_write_stop(d, mesh, network));
@@ -264,7 +264,7 @@ int hm_driver_correct(void* driver, const hm_mesh* mesh, hm_network* network, do
   const uint32_t neurons = hm_neuron_count(mesh), vanished = d->vanished;
   if (!is_finite(largest_bits(network->bias, neurons)) || !is_finite(largest_bits(network->output, neurons)))
     return HM_ERROR_NUMBER;
-  TRY(expect_idle(d));
+  TRY(hm_driver_expect_idle(d));
   TRY(load_biases(d, mesh, network, d->shift));
   d->vanished = vanished;
   TRY(load_outputs(d, mesh, network));
@@ -278,7 +278,7 @@ double hm_driver_room(void* driver) {
 
 int hm_driver_restore(hm_driver* d, const hm_mesh* mesh, const hm_network* network, int shift) {
   d->shift = shift;
-  TRY(expect_idle(d));
+  TRY(hm_driver_expect_idle(d));
   TRY(load_weights(d, mesh, network, shift));
   return hm_driver_write_stop(d, mesh, network);
 }

@@ -27,6 +27,15 @@ static inline int hm_read_format(const hm_driver* d, uint32_t offset, hm_format*
   return HM_OK;
 }
 
+/* A threshold in last places of the state. */
+uint32_t hm_driver_places(const hm_driver* driver, double threshold);
+/* HM_OK, or HM_ERROR_BUSY, or an error of the bus. */
+int hm_driver_expect_idle(const hm_driver* driver);
+/* A run with what is loaded, until it has ended; threshold in last places. */
+int hm_driver_start(const hm_driver* driver, uint32_t threshold, uint32_t max_sweeps);
+/* What the registers tell of it. */
+int hm_driver_read_counters(const hm_driver* driver, hm_relaxation* result);
+
 /* Does the host divide each row by its N before it loads it? */
 int hm_driver_prescales(const hm_driver* driver);
 

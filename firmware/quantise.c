@@ -1,6 +1,7 @@
 #include "firmware/quantise.h"
 
 #include "firmware/doubles.h"
+#include "firmware/quantise_whole.h"
 #include "firmware/registers.h"
 
 double hm_power_of_two(int exponent) {
@@ -138,6 +139,8 @@ static uint32_t exact_codes(const double* values, uint32_t count, double scale, 
 
 uint32_t hm_codes(const double* values, uint32_t count, double scale, const hm_format* format,
                   uint32_t* words) {
+  if (HM_DOUBLES_ARE_SOFT && hm_is_power_of_two(scale))
+    return hm_codes_of_bits(values, count, scale, format, words);
   if (format->overflow != HM_SAT && format->overflow != HM_SAT_SYM)
     return exact_codes(values, count, scale, format, words);
   const rounding_rule rule = rule_of(format->rounding);

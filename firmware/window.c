@@ -2,6 +2,7 @@
 #include "firmware/window.h"
 
 #include "firmware/doubles.h"
+#include "firmware/quantise_whole.h"
 #include "firmware/try.h"
 
 hm_stream hm_stream_open(const hm_line* line, const hm_window* window, const hm_format* format, int shift) {
@@ -10,6 +11,10 @@ hm_stream hm_stream_open(const hm_line* line, const hm_window* window, const hm_
                      .scale = hm_power_of_two(shift + hm_fraction_bits(format)),
                      .address = window->offset,
                      .codes_a_word = window->codes_a_word};
+}
+
+hm_stream hm_stream_of_codes(const hm_line* line, const hm_window* window) {
+  return (hm_stream){.line = line, .address = window->offset, .codes_a_word = window->codes_a_word};
 }
 
 static int flush(hm_stream* s) {
@@ -37,21 +42,31 @@ static uint32_t pack(hm_stream* s, uint32_t* codes, uint32_t count) {
 
 static uint32_t count_vanished(const double* values, const uint32_t* codes, uint32_t count) {
   uint32_t vanished = 0;
+  if (HM_DOUBLES_ARE_SOFT) return hm_vanished_by_bits(values, codes, count);
   for (uint32_t k = 0; k < count; ++k) vanished += (uint32_t)((values[k] != 0) & (codes[k] == 0));
   return vanished;
 }
 
+uint32_t* hm_stream_room(const hm_stream* s, uint32_t* count) {
+  *count = s->line->buffer_words - s->waiting;
+  return s->line->buffer + s->waiting;
+}
+
+int hm_stream_take(hm_stream* s, uint32_t count) {
+  s->waiting += pack(s, s->line->buffer + s->waiting, count);
+  return s->waiting == s->line->buffer_words ? flush(s) : HM_OK;
+}
+
 int hm_stream_put(hm_stream* s, const double* values, uint32_t count) {
-  const hm_line* line = s->line;
   while (count > 0) {
-    const uint32_t room = line->buffer_words - s->waiting, part = count < room ? count : room;
-    uint32_t* const at = line->buffer + s->waiting;
+    uint32_t room;
+    uint32_t* const at = hm_stream_room(s, &room);
+    const uint32_t part = count < room ? count : room;
     s->clipped += hm_codes(values, part, s->scale, s->format, at);
     s->vanished += count_vanished(values, at, part);
-    s->waiting += pack(s, at, part);
+    TRY(hm_stream_take(s, part));
     values += part;
     count -= part;
-    if (s->waiting == line->buffer_words) TRY(flush(s));
   }
   return HM_OK;
 }
@@ -86,6 +101,19 @@ static void unpack(const uint32_t* words, uint32_t codes_a_word, double last_pla
     const uint32_t low = words[k / codes_a_word] >> bits * (k % codes_a_word) & (2 * sign - 1);
     values[k] = ((int32_t)(low ^ sign) - (int32_t)sign) * last_place;
   }
+}
+
+int hm_window_read_codes(const hm_line* line, const hm_window* window, int32_t* codes, uint32_t count) {
+  const uint32_t n = window->codes_a_word, down = 32 - 32 / n, words = count / n + (count % n != 0);
+  for (uint32_t done = 0; done < words;) {
+    const uint32_t part = words - done < line->buffer_words ? words - done : line->buffer_words;
+    TRY(line->bus->read_burst(line->bus->context, window->offset + 4 * done, line->buffer, part));
+    const uint32_t first = n * done, some = count - first < n * part ? count - first : n * part;
+    for (uint32_t k = 0; k < some; ++k)
+      codes[first + k] = (int32_t)(line->buffer[k / n] << (down - 32 / n * (k % n))) >> down;
+    done += part;
+  }
+  return HM_OK;
 }
 
 int hm_window_read(const hm_line* line, const hm_window* window, double last_place, double* values,

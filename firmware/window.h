@@ -35,6 +35,12 @@ typedef struct hm_stream {
 
 /* Values are multiplied by 2^shift before they become codes. */
 hm_stream hm_stream_open(const hm_line* line, const hm_window* window, const hm_format* format, int shift);
+/* Of codes that are made already: by hm_stream_room and hm_stream_take alone. */
+hm_stream hm_stream_of_codes(const hm_line* line, const hm_window* window);
+/* Where the next codes go, and how many of them at most. */
+uint32_t* hm_stream_room(const hm_stream* stream, uint32_t* count);
+/* Takes so many that were written there. HM_OK, or an error of the bus. */
+int hm_stream_take(hm_stream* stream, uint32_t count);
 /* As many values as there are, in bursts of a full buffer. HM_OK, or an error of the bus. */
 int hm_stream_put(hm_stream* stream, const double* values, uint32_t count);
 /* As hm_stream_put, each value divided by `norm` before it is scaled. */
@@ -42,6 +48,8 @@ int hm_stream_put_row(hm_stream* stream, const double* values, uint32_t count, d
 /* Sends the words that still wait in the buffer. */
 int hm_stream_end(hm_stream* stream);
 
+/* The first `count` codes of a window. HM_OK, or an error of the bus. */
+int hm_window_read_codes(const hm_line* line, const hm_window* window, int32_t* codes, uint32_t count);
 /* The first `count` codes of a window, times `last_place`. HM_OK, or an error of the bus. */
 int hm_window_read(const hm_line* line, const hm_window* window, double last_place, double* values,
                    uint32_t count);

@@ -61,11 +61,13 @@ std::string c_text();
 std::string system_rdl_text();
 std::string ip_xact_text();
 std::string svd_text();
+std::string verilog_text();
 
 inline constexpr Format formats[] = {{"markdown", "hopmesh_registers.md", markdown_text},
                                      {"c", "hopmesh_registers.h", c_text},
                                      {"systemrdl", "hopmesh_registers.rdl", system_rdl_text},
                                      {"ip-xact", "hopmesh_registers.xml", ip_xact_text},
-                                     {"svd", "hopmesh_registers.svd", svd_text}};
+                                     {"svd", "hopmesh_registers.svd", svd_text},
+                                     {"verilog", "hm_register_map.vh", verilog_text}};
 
 } // namespace hopmesh::describe

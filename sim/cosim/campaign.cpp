@@ -58,6 +58,21 @@ CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number) {
   return made;
 }
 
+CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number,
+                           const std::vector<spec::ArraySpec>& arrays) {
+  if (arrays.empty()) return campaign_case(seed, number);
+  Dice dice(mixed(mixed(seed) ^ number));
+  const bool large = dice.one_in(64), every_sweep = dice.one_in(4);
+  const spec::ArraySpec& array = arrays[dice.below(arrays.size())];
+  for (;;) {
+    const spec::Topology topology = random_topology(dice, large ? 300 : 60);
+    if (spec::validate_on(array, topology)) continue; // a row too long for its formats
+    CampaignCase made{random_codes(dice, array, topology), every_sweep};
+    vary_run(dice, made.job);
+    return made;
+  }
+}
+
 namespace {
 
 struct Batch {
@@ -76,7 +91,8 @@ void say(int pipe, const std::string& line) {
   }
 }
 
-[[noreturn]] void do_batch(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
+[[noreturn]] void do_batch(const Ways& ways, const CampaignPlan& plan, Batch batch, int pipe) {
+  const std::uint64_t seed = plan.seed;
   std::vector<CampaignCase> cases;
   std::vector<MadeAhead> ahead;
   const auto takes_part = [&](std::uint64_t number) {
@@ -87,7 +103,7 @@ void say(int pipe, const std::string& line) {
   alarm(case_seconds);
   for (std::uint64_t k = 0; k < batch.count; ++k) {
     say(pipe, fmt::format("c {}\n", batch.first + k));
-    cases.push_back(campaign_case(seed, batch.first + k));
+    cases.push_back(campaign_case(seed, batch.first + k, plan.arrays));
     ahead.push_back(make_ahead(ways, cases.back().job, takes_part(batch.first + k)));
   }
   for (std::uint64_t k = 0; k < batch.count; ++k) {
@@ -101,12 +117,12 @@ void say(int pipe, const std::string& line) {
   _exit(0); // no destructors: SystemC would spend a third of the batch's time on its own
 }
 
-int run_batch(const Ways& ways, std::uint64_t seed, Batch batch, int pipe) {
+int run_batch(const Ways& ways, const CampaignPlan& plan, Batch batch, int pipe) {
   std::signal(SIGINT, SIG_IGN); // the parent decides
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGALRM, SIG_DFL);
   try {
-    do_batch(ways, seed, batch, pipe);
+    do_batch(ways, plan, batch, pipe);
   } catch (const std::bad_alloc&) {
     throw; // nothing that a level did wrong
   } catch (const std::exception& e) {
@@ -180,7 +196,7 @@ class Parent {
     const std::unique_ptr<int, void (*)(int*)> writer(&ends[1], [](int* end) { close(*end); });
     children_.emplace_back(batch, ends[0], [&] {
       close(ends[0]);
-      return run_batch(ways_, plan_.seed, batch, ends[1]);
+      return run_batch(ways_, plan_, batch, ends[1]);
     });
   }
 

@@ -16,12 +16,16 @@ struct CampaignCase {
   bool every_sweep = false;
 };
 CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number);
+/// As that, on one of these arrays, which are taken as they are.
+CampaignCase campaign_case(std::uint64_t seed, std::uint64_t number,
+                           const std::vector<spec::ArraySpec>& arrays);
 
 struct CampaignPlan {
   std::uint64_t seed = 1, first = 0;
-  std::uint64_t cases = UINT64_MAX; ///< at most so many
-  double seconds = 1e300;           ///< no batch is begun after them
-  std::size_t children = 1;         ///< at once
+  std::uint64_t cases = UINT64_MAX;         ///< at most so many
+  double seconds = 1e300;                   ///< no batch is begun after them
+  std::size_t children = 1;                 ///< at once
+  std::vector<spec::ArraySpec> arrays = {}; ///< of the cases; none: random ones
 };
 
 struct Finding {

@@ -60,10 +60,10 @@ void write_finding(const std::filesystem::path& path, const VectorCase& a_case, 
   file.commit();
 }
 
-KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, std::uint64_t seed,
+KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, const CampaignPlan& plan,
                          const Finding& finding, const std::vector<std::string>& comments) {
   const Ways two = involved(ways, finding);
-  const ArrayJob whole = campaign_case(seed, finding.number).job;
+  const ArrayJob whole = campaign_case(plan.seed, finding.number, plan.arrays).job;
   run::CountProgress progress("smaller cases tried", 0);
   std::uint64_t tried = 0;
   const Differs still = [&](const ArrayJob& job) {
@@ -74,7 +74,7 @@ KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, st
   KeptFinding kept{repeats ? shrink(whole, still) : whole, repeats};
   std::vector<std::string> lines = comments;
   lines.insert(lines.begin(), finding.text);
-  write_finding(path, {fmt::format("seed {} case {}", seed, finding.number), kept.job}, two, lines);
+  write_finding(path, {fmt::format("seed {} case {}", plan.seed, finding.number), kept.job}, two, lines);
   return kept;
 }
 

@@ -24,7 +24,7 @@ struct KeptFinding {
 };
 /// The case of a finding made small, until the user stops that, and written with `comments` below what
 /// differs. Throws files::WriteError.
-KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, std::uint64_t seed,
+KeptFinding keep_finding(const std::filesystem::path& path, const Ways& ways, const CampaignPlan& plan,
                          const Finding& finding, const std::vector<std::string>& comments);
 
 } // namespace hopmesh::cosim

@@ -227,6 +227,10 @@ spec::StopRule random_rule(Dice& dice) {
 
 void vary_stage(Dice& dice, ArrayJob& job) {
   if (dice.one_in(2)) job.array = stepping_array(dice, job.array, job.topology.most_taps());
+  vary_run(dice, job);
+}
+
+void vary_run(Dice& dice, ArrayJob& job) {
   job.momentum = random_table(dice, table_entries(job.array));
   job.rule = random_rule(dice);
 }

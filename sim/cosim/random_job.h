@@ -56,6 +56,8 @@ void fold_at_random(Dice& dice, spec::ArraySpec& array);
 spec::ArraySpec stepping_array(Dice& dice, spec::ArraySpec array, std::size_t taps);
 /// Gives some of all jobs such a stage, and its table; and all of them a rule to stop by.
 void vary_stage(Dice& dice, ArrayJob& job);
+/// Gives a job the table that its array has, and a rule to stop by.
+void vary_run(Dice& dice, ArrayJob& job);
 
 /// Everything for one run, on this array and mesh.
 ArrayJob random_codes(Dice& dice, const spec::ArraySpec& array, const spec::Topology& topology);

@@ -49,6 +49,12 @@ std::size_t chunk_for_links(const spec::Topology& t, const std::vector<std::uint
   return best;
 }
 
+// Where all cells fire at once, chunks without an empty lane leave every link as long as it is in cell
+// numbers.
+std::size_t whole_blocks(std::size_t cells) {
+  return (cells + block_lanes - 1) / block_lanes * block_lanes;
+}
+
 // Inputs of cells in blocks, where every row of a block is as long as its longest.
 std::size_t padded_inputs(const spec::Topology& t, const std::vector<std::uint32_t>& cells) {
   std::size_t inputs = 0, longest = 0;
@@ -96,6 +102,8 @@ Layout::Layout(const spec::Topology& t, const spec::Phases& phases, spec::Schedu
   for (std::uint32_t g : group) groups = std::max<std::size_t>(groups, g + 1);
   if (chunk_cells == 0)
     chunk_cells = std::max<std::size_t>(t.cells(), 1);
+  else if (schedule == spec::Schedule::synchronous)
+    chunk_cells = whole_blocks(std::max(chunk_cells, link_reach(t)));
   else
     chunk_cells = chunk_for_links(t, group, groups, chunk_cells);
   place(t, group, chunk_cells);

@@ -1,6 +1,5 @@
 #include "sim/levels/array_mover.h"
 
-#include "firmware/registers.h"
 #include "sim/levels/bus_array.h"
 #include "sim/levels/bus_error.h"
 #include "sim/levels/left_over.h"
@@ -17,37 +16,6 @@ const hm_formulation* formulation_named(const std::string& name) {
   for (const hm_formulation* known : hm_formulations)
     if (known->name == name) return known;
   throw std::logic_error("no formulation " + name);
-}
-
-/// A driver, and where its relaxations are kept: a step may have several.
-struct Watched {
-  hm_driver* driver;
-  hm_relaxation* last; ///< the last answer, with the sweeps of its corrections
-  std::vector<std::uint32_t>* sweeps;
-  std::vector<double>* weights; ///< as last loaded; null: nobody asks
-};
-
-int relax_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
-                  std::uint32_t max_sweeps, hm_relaxation* result) {
-  const auto* watched = static_cast<Watched*>(context);
-  if (watched->weights) watched->weights->assign(network->weight, network->weight + hm_weight_count(mesh));
-  const int error = hm_driver_relax(watched->driver, mesh, network, threshold, max_sweeps, result);
-  *watched->last = *result;
-  watched->sweeps->push_back(result->sweeps);
-  return error;
-}
-
-int correct_watched(void* context, const hm_mesh* mesh, hm_network* network, double threshold,
-                    std::uint32_t max_sweeps, hm_relaxation* result) {
-  const auto* watched = static_cast<Watched*>(context);
-  const int error = hm_driver_correct(watched->driver, mesh, network, threshold, max_sweeps, result);
-  hm_add_relaxation(watched->last, result);
-  watched->sweeps->push_back(result->sweeps);
-  return error;
-}
-
-double room_watched(void* context) {
-  return hm_driver_room(static_cast<Watched*>(context)->driver);
 }
 
 } // namespace
@@ -77,9 +45,11 @@ hm_step_parameters step_parameters(const scene::Scene& scene) {
 
 ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array,
                        ArrayPort& port, bool check)
-    : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), motion_(step_parameters(scene)),
-      relax_(scene.relax), memory_(mesh, motion_.formulation->looks_back), buffer_(longest_burst) {
+    : mesh_(mesh), port_(port), profile_(port, array, mesh.topology()), words_(profile_),
+      motion_(step_parameters(scene)), relax_(scene.relax), memory_(mesh, motion_.formulation->looks_back) {
   if (relax_.corrects()) memory_.make_room();
+  HostBus& bus = scene.host.dma ? static_cast<HostBus&>(profile_) : words_;
+  host_ = make_host(scene, array, {bus, mesh.firmware(), motion_, relax_, memory_});
   if (scene.force.image) image_.emplace(scene);
   if (check) check_.emplace(scene, mesh, array);
   const bool signs = array.output == spec::Output::binary;
@@ -88,13 +58,8 @@ ArrayMover::ArrayMover(const scene::Scene& scene, const BuiltMesh& mesh, const s
 
 // The array is looked at with the first step, when every port of the process has been made.
 void ArrayMover::open() {
-  check_opened(hm_driver_open(&driver_, &profile_.bus(), &mesh_.firmware(), buffer_.data(),
-                              static_cast<std::uint32_t>(buffer_.size())),
-               driver_);
-  driver_.stop = relax_.stop == scene::Stop::sum ? hm_stop{1, relax_.share} : hm_stop{0, 0};
-  const std::vector<double>& m = relax_.momentum;
-  if (driver_.output == HM_OUTPUT_MOMENTUM && !m.empty())
-    levels::check(hm_driver_put_momentum(&driver_, m.data(), static_cast<std::uint32_t>(m.size())));
+  check_opened(host_->open(), driver());
+  opened_ = true;
   put_kept_back();
 }
 
@@ -108,8 +73,9 @@ void ArrayMover::keep() {
   const hm_kept& kept = memory_.state.kept;
   std::vector<double>& all = memory_.now.kept;
   all = {kept.reach, kept.inertia, static_cast<double>(kept.step), kept.softness,
-         static_cast<double>(driver_.shift)};
-  all.insert(all.end(), loaded_.begin(), loaded_.end());
+         static_cast<double>(driver().shift)};
+  const std::vector<double> loaded = host_->loaded_weights();
+  all.insert(all.end(), loaded.begin(), loaded.end());
 }
 
 // An array that was just made has no weights yet.
@@ -117,10 +83,8 @@ void ArrayMover::put_kept_back() {
   const std::vector<double>& all = memory_.now.kept;
   if (all.size() < kept_figures) return;
   memory_.state.kept = {all[0], all[1], static_cast<std::uint64_t>(all[2]), all[3]};
-  loaded_.assign(all.begin() + kept_figures, all.end());
-  if (loaded_.empty()) return;
-  const hm_network network{loaded_.data(), memory_.bias.data(), memory_.now.output.data()};
-  levels::check(hm_driver_restore(&driver_, &mesh_.firmware(), &network, static_cast<int>(all[4])));
+  const std::vector<double> loaded(all.begin() + kept_figures, all.end());
+  if (!loaded.empty()) levels::check(host_->restore(loaded, static_cast<int>(all[4])));
 }
 
 namespace {
@@ -134,19 +98,15 @@ void tell_corrections(const hm_refinement& made, StepRow& row) {
 } // namespace
 
 StepRow ArrayMover::advance() {
-  if (!driver_.line.bus) open();
+  if (!opened_) open();
   const std::uint64_t step = memory_.state.step, bus_before = bus_cycles();
   rest_ = memory_.now.output;
   if (image_) motion_.node_force = image_->at(memory_.now.position).data();
   if (check_) check_->begin(state(), motion_.node_force);
   port_.begin_step(step);
-  hm_relaxation last{};
-  sweeps_.clear();
-  Watched watched{&driver_, &last, &sweeps_, motion_.reload_every > 1 ? &loaded_ : nullptr};
-  const hm_solver solver{&watched, relax_watched, correct_watched, room_watched};
-  driver_.clipped = driver_.vanished = 0;
-  hm_step_result result;
-  const int error = hm_step(&mesh_.firmware(), &motion_, &solver, &memory_.state, &result);
+  step_ = {};
+  const int error = host_->step(step_);
+  const hm_step_result& result = step_.result;
   if (error == HM_ERROR_STOPPED) {
     std::copy(rest_.begin(), rest_.end(), memory_.now.output.begin());
     throw Stopped();
@@ -165,17 +125,19 @@ StepRow ArrayMover::advance() {
   row.converged = result.relaxation.converged;
   look_back(row);
   if (relax_.corrects()) tell_corrections(result.refinement, row);
-  row.clipped = driver_.clipped;
-  row.vanished = driver_.vanished;
+  row.clipped = driver().clipped;
+  row.vanished = driver().vanished;
+  if (step_.instructions > 0) row.instructions = static_cast<double>(step_.instructions);
   row.bus_cycles = bus_cycles() - bus_before;
   row.saturated = static_cast<std::uint64_t>(std::count_if(
       memory_.now.output.begin(), memory_.now.output.end(), [](double V) { return std::fabs(V) >= 1; }));
   measure(mesh_.mesh(), memory_.now.position.data(), memory_.now.velocity.data(), row);
   if (check_) {
     const double began = processor_seconds();
-    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, last);
+    row.error = check_->judge(memory_.state.network, memory_.start, memory_.state.scale, step_.last);
     row.alternation = row.error->alternation;
     row.fall_left = row.error->fall_left;
+    row.host_error = row.error->host;
     check_->certify(row);
     judging_seconds_ += processor_seconds() - began;
   }
@@ -192,7 +154,11 @@ void ArrayMover::look_back(StepRow& row) {
   const hm_network& network = memory_.state.network;
   row.input_left = input_left(mesh_.firmware(), network);
   if (left_over_ && row.step % LeftOver::steps_a_look == 0)
-    row.fall_seen = left_over_->look(network, memory_.start, sweeps_.back());
+    row.fall_seen = left_over_->look(network, memory_.start, step_.sweeps.back());
+}
+
+HostCounts ArrayMover::host_counts() const {
+  return {host_->functions(), host_->memory_bytes()};
 }
 
 std::uint64_t ArrayMover::bus_cycles() const {
@@ -228,7 +194,7 @@ void ArrayMover::restore(const StepState& state, const std::vector<SignalRange>&
   }
   memory_.state.step = state.step;
   memory_.now.kept = state.kept;
-  if (driver_.line.bus) put_kept_back();
+  if (opened_) put_kept_back();
   seen_ = seen;
 }
 

@@ -7,6 +7,7 @@
 #include "sim/input/standard_streams.h"
 #include "sim/levels/interrupt.h"
 #include "sim/levels/ports/engine_port.h"
+#include "sim/levels/ports/rtl_level.h"
 #include "sim/levels/ports/systemc_port.h"
 #include "sim/levels/reference_mover.h"
 #include "sim/levels/rival_mover.h"
@@ -87,6 +88,17 @@ Level systemc_by_clock() {
   return row;
 }
 
+Level rtl_row() {
+  Level row{"rtl", Kind::array, "the array's Verilog, clock by clock under Verilator (folded arrays)"};
+  row.make_port = [](const spec::ArraySpec& array, const spec::Topology& topology,
+                     const PortRequest& request) {
+    return make_rtl_port(array, topology, request.at_once, stop_requested);
+  };
+  row.named_only = true;
+  row.make_ready = make_rtl_model;
+  return row;
+}
+
 Level rival_row(const std::string& name) {
   Level row{name, Kind::rival, fmt::format("a rival in double; {}", rivals::about(name))};
   row.make_mover = [name](const Prepared& p) {
@@ -96,7 +108,7 @@ Level rival_row(const std::string& name) {
 }
 
 std::vector<Level> make_table() {
-  std::vector<Level> all{reference_row(), engine_row(), systemc_by_phase(), systemc_by_clock()};
+  std::vector<Level> all{reference_row(), engine_row(), systemc_by_phase(), systemc_by_clock(), rtl_row()};
   for (const std::string& name : rivals::names()) all.push_back(rival_row(name));
   return all;
 }
@@ -124,7 +136,13 @@ std::vector<std::string> level_names(Kinds kinds) {
 }
 
 std::vector<std::string> compared_names() {
-  return names_where([](const Level& level) { return is_one_of(sweeping, level.kind) && level.one_in == 1; });
+  return names_where([](const Level& level) {
+    return is_one_of(sweeping, level.kind) && level.one_in == 1 && !level.named_only;
+  });
+}
+
+std::vector<std::string> campaign_names() {
+  return names_where([](const Level& level) { return level.kind == Kind::array && !level.named_only; });
 }
 
 const Level& level_named(const std::string& name, const std::string& where, Kinds kinds) {
@@ -145,6 +163,7 @@ Way make_way(const Level& level, const Variant& variant) {
   PortRequest request;
   request.engine = variant.engine;
   request.all_threads = true;
+  request.at_once = true;
   const auto make = [make = level.make_port, request](const spec::ArraySpec& array,
                                                       const spec::Topology& topology) {
     try {

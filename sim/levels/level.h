@@ -26,6 +26,7 @@ struct PortRequest {
   engine::Options engine;
   bool all_threads = false; ///< as many as asked for, even where fewer would be faster
   bool remarks = false;     ///< tells stderr what costs time and no bit; a study would say it at each point
+  bool at_once = false; ///< nothing may be made ready for it that takes a while: a campaign has many arrays
 };
 
 /// A neuron of an array whose longest row has so many taps, laid open: any firing, one after the other.
@@ -66,6 +67,9 @@ struct Level {
   bool checked = true;      ///< `run` asks the reference beside every step, unless told otherwise
   bool made_ahead = false;  ///< all arrays of a process are made before the first is used
   std::uint64_t one_in = 1; ///< slow: in one of so many cases of a campaign, and in `compare` when named
+  bool named_only = false;  ///< takes part where somebody names it
+  /// Makes ready what takes a while, for networks of usual size; empty where nothing does.
+  std::function<void(const spec::ArraySpec&)> make_ready = nullptr;
 
   bool has_codes() const { return kind == Kind::array; }
   bool has_bus() const { return make_port != nullptr; }
@@ -82,6 +86,8 @@ inline constexpr Kinds sweeping{Kind::reference, Kind::array};
 std::vector<std::string> level_names(Kinds kinds = any_kind);
 /// Those that `compare` holds beside each other when nobody says which: what sweeps and is not slow.
 std::vector<std::string> compared_names();
+/// Those that a campaign holds beside each other then.
+std::vector<std::string> campaign_names();
 
 /// The row of a name. Throws input::InputError where no level of these kinds has it; `where` it stood.
 const Level& level_named(const std::string& name, const std::string& where, Kinds kinds = any_kind);

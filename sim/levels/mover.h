@@ -12,6 +12,19 @@
 
 namespace hopmesh::levels {
 
+/// A function of an emulated host's program. Library functions that it calls, those of soft floats among
+/// them, are in `with_library`, too.
+struct HostFunction {
+  std::string name;
+  std::uint64_t instructions = 0, with_library = 0;
+};
+
+/// What is known of the host of an array beside the instructions in its rows: of all steps of this process.
+struct HostCounts {
+  std::vector<HostFunction> functions; ///< the longest first; empty where nobody counts
+  std::uint64_t memory_bytes = 0;      ///< program and stack included; 0 where nobody knows
+};
+
 /// The step had no finite answer; what() says in a sentence what was found.
 class LostMotion : public std::runtime_error {
  public:
@@ -29,6 +42,7 @@ class Mover {
   virtual std::vector<SignalRange> ranges() const { return {}; }
   /// Seconds of processor time that went into judging the steps, not into making them.
   virtual double judging_seconds() const { return 0; }
+  virtual HostCounts host_counts() const { return {}; }
 
   /// As the last good step left it.
   virtual StepState state() const = 0;

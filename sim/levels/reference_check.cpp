@@ -4,6 +4,7 @@
 #include "sim/levels/eigen_vectors.h"
 #include "sim/levels/left_over.h"
 #include "sim/levels/networks/told_error.h"
+#include "sim/reference/rest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,8 @@ reference::StepParameters motion_for(const scene::Scene& scene, const spec::Arra
 }
 
 ReferenceCheck::ReferenceCheck(const scene::Scene& scene, const BuiltMesh& mesh, const spec::ArraySpec& array)
-    : mesh_(mesh), motion_(motion_for(scene, array)), order_(order_for(mesh, array.schedule)),
+    : mesh_(mesh), motion_(motion_for(scene, array)),
+      fixed_(scene.host.arithmetic == scene::Arithmetic::fixed), order_(order_for(mesh, array.schedule)),
       state_(reference::initial_state(mesh.mesh())), array_(array) {}
 
 void ReferenceCheck::begin(const StepState& state, const double* node_force) {
@@ -143,6 +145,8 @@ ReferenceError ReferenceCheck::judge(const hm_network& built, const std::vector<
   error.energy_gap = judgement.gap;
   error.fall_left = fall_left(twin.network(), answer.start, answer.V, judgement.rest);
   error.network = network_difference(network, built);
+  if (fixed_ && motion_.rule.neuron != reference::Neuron::binary)
+    error.host = rest_difference(network, built, judgement.rest);
   if (!last.converged) error.alternation = alternation_of(swept, answer.V);
   return error;
 }
@@ -215,6 +219,19 @@ double ReferenceCheck::network_difference(const reference::Network& network, con
   for (std::size_t k = 0; k < mesh_.cells() * n; ++k)
     compare(network.I[static_cast<Eigen::Index>(mesh_.node_of_cell(k / n) * n + k % n)], built.bias[k]);
   return largest > 0 ? difference / largest : 0;
+}
+
+double ReferenceCheck::rest_difference(reference::Network network, const hm_network& built,
+                                       const Vector& rest) {
+  const auto n = static_cast<Eigen::Index>(mesh_.components());
+  double* const weights = network.W.valuePtr();
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    if (place_[k] >= 0) weights[place_[k]] = built.weight[k];
+  for (std::size_t c = 0; c < mesh_.cells(); ++c)
+    for (Eigen::Index p = 0; p < n; ++p)
+      network.I[mesh_.node_of_cell(c) * n + p] = built.bias[static_cast<Eigen::Index>(c) * n + p];
+  const Vector other = reference::rest_from(reference::BlockNetwork(network, n), rest).V;
+  return std::sqrt((other - rest).squaredNorm() / static_cast<double>(mesh_.cells() * mesh_.components()));
 }
 
 } // namespace hopmesh::levels

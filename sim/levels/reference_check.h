@@ -56,9 +56,12 @@ class ReferenceCheck {
   const reference::BlockSweeps& laid_out(const reference::Network& network);
   void find_places(const reference::Matrix& W);
   double network_difference(const reference::Network& network, const hm_network& built);
+  /// Rms of what the firmware's network rests at against the rest of the reference's.
+  double rest_difference(reference::Network network, const hm_network& built, const reference::Vector& rest);
 
   const BuiltMesh& mesh_;
   reference::StepParameters motion_;
+  const bool fixed_; ///< the host computes in whole numbers
   const reference::Order order_;
   reference::State state_;
   const spec::ArraySpec array_;

@@ -2,36 +2,9 @@
 // the writer and the reader of the file, statistics, report and docs walk these lines.
 #pragma once
 
-#include "sim/levels/column_total.h"
-#include "sim/levels/step_row.h"
-
-#include <variant>
+#include "sim/levels/column_form.h"
 
 namespace hopmesh::levels {
-
-/// A figure that stands in its cell as 16 hexadecimal digits.
-struct HashFigure {
-  std::uint64_t StepRow::*member;
-  bool operator==(const HashFigure& other) const { return member == other.member; }
-};
-
-/// Where a row keeps the figure of a column.
-using StepFigure = std::variant<std::uint64_t StepRow::*, double StepRow::*, bool StepRow::*,
-                                std::optional<double> StepRow::*, HashFigure, double ReferenceError::*>;
-
-struct StepColumn {
-  constexpr StepColumn(const char* called, const char* measured_in, const char* meaning, StepFigure of,
-                       Subject about, Curve drawn = {}, Total first = {}, Total second = {})
-      : name(called), unit(measured_in), words(meaning), figure(of), subject(about),
-        curve(drawn), totals{first, second} {}
-
-  const char *name, *unit;
-  const char* words; ///< its meaning, as the docs print it
-  StepFigure figure;
-  Subject subject;
-  Curve curve;
-  Total totals[2];
-};
 
 /// In the order of the file.
 inline constexpr StepColumn all_step_columns[] = {
@@ -137,6 +110,16 @@ inline constexpr StepColumn all_step_columns[] = {
                &StepRow::error_bound, Subject::certainty, {},
                Total{Summary::median, "median_error_bound", "output error is at most, beforehand",
                      "{:.3g} rms (median)"}),
+    StepColumn(
+        "host_error", "",
+        "of a host that computes in whole numbers (`host.arithmetic`): rms of V at rest in its network, "
+        "before rounding, against the reference's",
+        &StepRow::host_error, Subject::arithmetic, {},
+        Total{Summary::median, "median_host_error", "of it by the host's whole numbers",
+              "{:.3g} rms (median)"}),
+    StepColumn("instructions", "", "of the host, where an emulated one counts them (`host.processor`)",
+               &StepRow::instructions, Subject::host, Curve{"host's instructions a step"},
+               Total{Summary::sum, "instructions", "host's instructions", "{:.4g}"}),
     StepColumn("hash", "", "of positions, velocities, accelerations and outputs (XXH64)",
                HashFigure{&StepRow::hash}, Subject::motion),
 };

@@ -16,6 +16,7 @@ struct ReferenceError {
   double network = 0;
   double alternation = 0; ///< of a step that did not come to rest: as in StepRow
   double fall_left = 0;   ///< as in StepRow
+  std::optional<double> host = {};
 };
 
 struct StepRow {
@@ -35,6 +36,8 @@ struct StepRow {
   std::optional<double> told_error;           ///< rms of V - V_rest without a rest: networks/told_error.h
   std::optional<double> error_bound;          ///< beforehand: networks/error_bound.h
   std::uint64_t bus_cycles = 0, clipped = 0, vanished = 0;
+  std::optional<double> instructions;  ///< of the host, where they are counted
+  std::optional<double> host_error;    ///< where the reference was asked about whole numbers
   std::optional<ReferenceError> error; ///< where the reference was asked
   std::uint64_t hash = 0;
 };

@@ -28,6 +28,7 @@ Timeline timeline_of(const spec::ArraySpec& array, const spec::Topology& topolog
   t.prepare = work.array_cycles - t.sweeps;
   t.multipliers = parts_of(array, topology).multipliers;
   t.products = work.sweeps * topology.weight_words();
+  t.host_seconds = work.host_seconds;
   return t;
 }
 

@@ -1,6 +1,6 @@
 // Who works when: host bus and array take turns, and within the array's cycles multipliers work or wait
-// (docs/hardware/machine.md, "Time"). What the host itself needs between two runs is not known, and in no
-// figure here.
+// (docs/hardware/machine.md, "Time"). What the host itself needs between two runs is known where its
+// instructions are counted.
 #pragma once
 
 #include "rtl_model/spec/array_spec.h"
@@ -12,6 +12,7 @@ namespace hopmesh::machine {
 /// What was counted of a step, or of many.
 struct Work {
   std::uint64_t array_cycles = 0, bus_cycles = 0, sweeps = 0;
+  std::optional<double> host_seconds = {};
 };
 
 /// Where the cycles went, and what the multipliers of the accumulators did in them.
@@ -22,7 +23,9 @@ struct Timeline {
   std::uint64_t multipliers = 0; ///< of all accumulators
   std::uint64_t products = 0;    ///< cycles of a multiplier in which it multiplies a weight
 
-  HardwareTime time() const { return {prepare + sweeps, bus}; }
+  std::optional<double> host_seconds = {};
+
+  HardwareTime time() const { return {prepare + sweeps, bus, host_seconds}; }
   /// Cycles of multipliers that multiply over all that there are, in the array's own cycles.
   double utilisation() const { return share(time().array_cycles); }
   /// Those cycles over all of array and bus.

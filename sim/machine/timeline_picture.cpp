@@ -12,7 +12,8 @@ namespace {
 using pictures::Box;
 
 constexpr const char *bus_colour = "#d55e00", *prepare_colour = "#e69f00", *sweep_colour = "#0072b2",
-                     *busy_colour = "#009e73", *idle_colour = "#e9edf1", *unknown = "url(#unknown)";
+                     *busy_colour = "#009e73", *idle_colour = "#e9edf1", *host_colour = "#8e5ea2",
+                     *unknown = "url(#unknown)";
 constexpr double lanes_left = 120, lanes_right = 970, stub = 46, lane_height = 30, lane_gap = 12;
 constexpr double lanes_top = 112, shares_top = 368;
 constexpr std::uint64_t most_runs = 12; ///< of more, the runs of a step are drawn as one
@@ -46,9 +47,14 @@ class TimelineDrawing : public pictures::SvgCanvas {
 
  private:
   static double lane_top(int lane) { return lanes_top + lane * (lane_height + lane_gap); }
+  /// The host's time as cycles of the array's clock; 0 where it is not known.
+  double host_cycles(const Timeline& t) const { return t.host_seconds.value_or(0) * view_.clock_mhz * 1e6; }
+  /// Where the host's time is not known, stubs at the ends stand for it.
+  double margin() const { return view_.step.host_seconds ? 0 : stub; }
   double at(double cycle) const {
-    const auto all = static_cast<double>(std::max<std::uint64_t>(1, view_.step.time().cycles()));
-    return lanes_left + stub + cycle / all * (lanes_right - lanes_left - 2 * stub);
+    const double all =
+        std::max(1.0, static_cast<double>(view_.step.time().cycles()) + host_cycles(view_.step));
+    return lanes_left + margin() + cycle / all * (lanes_right - lanes_left - 2 * margin());
   }
 
   void bar(const Box& box, const char* colour, const std::string& tip) {
@@ -67,12 +73,21 @@ class TimelineDrawing : public pictures::SvgCanvas {
       text(lanes_left - 12, lane_top(lane) + 20, names[lane], R"( text-anchor="end")");
       bar({lanes_left, lane_top(lane), lanes_right, lane_top(lane) + lane_height}, idle_colour, "waits");
     }
+    draw_host();
+    const double host = host_cycles(view_.step);
+    const std::uint64_t runs = view_.runs > most_runs ? 1 : std::max<std::uint64_t>(1, view_.runs);
+    for (std::uint64_t k = 0; k < runs; ++k) draw_run(host + whole * double(k) / double(runs), double(runs));
+    draw_scale(host + whole);
+  }
+
+  void draw_host() {
+    if (view_.step.host_seconds)
+      return in_lane(0, 0, host_cycles(view_.step), host_colour,
+                     "the host makes networks and moves the mesh, all of the step drawn as one: " +
+                         duration(*view_.step.host_seconds));
     for (const double from : {lanes_left, lanes_right - stub})
       bar({from, lane_top(0), from + stub, lane_top(0) + lane_height}, unknown,
           "the host makes the network, and moves the mesh: how long that takes is not known");
-    const std::uint64_t runs = view_.runs > most_runs ? 1 : std::max<std::uint64_t>(1, view_.runs);
-    for (std::uint64_t k = 0; k < runs; ++k) draw_run(whole * double(k) / double(runs), double(runs));
-    draw_scale(whole);
   }
 
   /// A run out of so many, from its first cycle on.
@@ -100,7 +115,7 @@ class TimelineDrawing : public pictures::SvgCanvas {
     const double step = step_along(whole);
     for (int k = 0; k * step <= whole; ++k) number_x(box, at(k * step), fmt::format("{:.6g}", k * step));
     text((lanes_left + lanes_right) / 2, box.bottom + 40,
-         fmt::format("cycles; all {} of them take {}", view_.step.time().cycles(),
+         fmt::format("cycles of the array's clock; all {:.0f} of them take {}", whole,
                      duration(view_.step.time().seconds(view_.clock_mhz))),
          R"( text-anchor="middle")");
   }
@@ -110,15 +125,19 @@ class TimelineDrawing : public pictures::SvgCanvas {
     text(lanes_left, shares_top - 14,
          fmt::format("{}: {}", view_.motion_name, duration(t.time().seconds(view_.clock_mhz))),
          R"( font-size="15" font-weight="600")");
-    const char* names[] = {"bus and array", "multipliers"};
+    const char* names[] = {t.host_seconds ? "all" : "bus and array", "multipliers"};
+    const double whole = static_cast<double>(t.time().cycles()) + host_cycles(t);
+    const auto share = [&](double cycles) { return whole > 0 ? cycles / whole : 0; };
     for (int k = 0; k < 2; ++k)
       text(lanes_left - 12, shares_top + k * (lane_height + lane_gap) + 20, names[k],
            R"( text-anchor="end")");
     double from = 0;
-    from = draw_share(0, from, part_of(t.bus, t.time().cycles()), bus_colour, "bus");
-    from = draw_share(0, from, part_of(t.prepare, t.time().cycles()), prepare_colour, "prepare");
-    draw_share(0, from, part_of(t.sweeps, t.time().cycles()), sweep_colour, "sweeps");
-    from = draw_share(1, 0, t.utilisation_with_bus(), busy_colour, "multiply");
+    if (t.host_seconds) from = draw_share(0, from, share(host_cycles(t)), host_colour, "host");
+    from = draw_share(0, from, share(double(t.bus)), bus_colour, "bus");
+    from = draw_share(0, from, share(double(t.prepare)), prepare_colour, "prepare");
+    draw_share(0, from, share(double(t.sweeps)), sweep_colour, "sweeps");
+    from = draw_share(1, 0, t.utilisation_with_bus() * share(double(t.time().cycles())), busy_colour,
+                      "multiply");
     draw_share(1, from, 1 - from, idle_colour, "wait");
   }
 
@@ -140,7 +159,10 @@ class TimelineDrawing : public pictures::SvgCanvas {
     x = name(x, 488, sweep_colour, "array sweeps");
     x = name(x, 488, busy_colour, "multipliers that multiply");
     x = name(x, 488, idle_colour, "waits");
-    name(x, 488, unknown, "host: not known");
+    if (view_.step.host_seconds)
+      name(x, 488, host_colour, "host");
+    else
+      name(x, 488, unknown, "host: not known");
   }
 
   const TimelineView& view_;

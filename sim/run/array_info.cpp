@@ -5,6 +5,7 @@
 #include "rtl_model/spec/memory_map.h"
 #include "sim/input/count_text.h"
 #include "sim/machine/silicon.h"
+#include "sim/run/design/array_cost.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -225,6 +226,7 @@ std::vector<FigureTable> array_info(const scene::Scene& scene, const levels::Bui
           bus(mesh, array),
           memory_table(array, t),
           multiplier_table(array, t),
+          cost_table(array, t, step),
           left_out(scene, mesh)};
 }
 

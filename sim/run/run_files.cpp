@@ -60,7 +60,7 @@ const char* status_of(const RunResult& result) {
   return result.rows.unrest().unrested > 0 ? "doubtful" : "good";
 }
 
-/// Where the run's time went. Of the host's it is said that nobody knows it.
+/// Where the run's time went. Of a host that nobody counts it is said that nobody knows.
 void add_timeline(Json& json, const machine::Timeline& t, double clock_mhz) {
   const machine::HardwareTime time = t.time();
   json["hardware_seconds"] = time.seconds(clock_mhz);
@@ -72,11 +72,25 @@ void add_timeline(Json& json, const machine::Timeline& t, double clock_mhz) {
                       {"array_waits_for_bus", time.bus_cycles},
                       {"bus_waits_for_array", time.array_cycles},
                       {"host_with_both_idle", nullptr}};
+  if (t.host_seconds) json["timeline"]["host_with_both_idle"] = *t.host_seconds * clock_mhz * 1e6;
 }
 
 void add_totals(Json& json, levels::Subject subject, const StepLog& rows) {
   for (const RunTotal& t : totals_about(subject, rows))
     json[t.total->key] = t.is_count ? Json(static_cast<std::uint64_t>(t.value)) : Json(t.value);
+}
+
+/// An emulated host: what it was, and where its instructions went.
+Json host_json(const scene::HostSpec& host, const levels::HostCounts& counts, const StepLog& rows,
+               std::optional<double> seconds) {
+  Json json{{"core", name_of(host.core)},          {"cpi", host.cpi},
+            {"clock_mhz", host.clock_mhz},         {"seconds", seconds.value_or(0)},
+            {"memory_bytes", counts.memory_bytes}, {"functions", Json::array()}};
+  add_totals(json, Subject::host, rows);
+  for (const levels::HostFunction& f : counts.functions)
+    json["functions"].push_back(
+        {{"name", f.name}, {"instructions", f.instructions}, {"with_library", f.with_library}});
+  return json;
 }
 
 } // namespace
@@ -189,6 +203,9 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
   if (facts_.level->has_codes()) {
     add_totals(json, Subject::clock, rows);
     add_timeline(json, timeline_of_run(facts_, mesh_, rows), facts_.inputs.array.clock_mhz);
+    if (facts_.inputs.scene.host.counts())
+      json["host"] = host_json(facts_.inputs.scene.host, motion.host_counts(), rows,
+                               timeline_of_run(facts_, mesh_, rows).host_seconds);
     json["simulated_cycles_per_second"] =
         a_second(count_of(rows, &levels::StepRow::cycles, levels::Summary::sum));
     add_totals(json, Subject::network, rows);
@@ -196,6 +213,8 @@ std::string RunFiles::statistics(const RunResult& result, const levels::Mover& m
     if (is_judged(rows)) add_totals(json["against_reference"], Subject::reference, rows);
     if (!rows.empty() && rows.front().told_error)
       add_totals(json["against_reference"], Subject::certainty, rows);
+    if (is_judged(rows) && rows.front().host_error)
+      add_totals(json["against_reference"], Subject::arithmetic, rows);
     for (const levels::SignalRange& r : motion.ranges())
       json["ranges"].push_back({{"signal", r.signal},
                                 {"format", r.format.text()},

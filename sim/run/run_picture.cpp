@@ -60,6 +60,10 @@ template <typename Rows> bool is_shown(levels::Subject subject, const RunFacts& 
   case Subject::clock:
   case Subject::network:
     return facts.level->has_codes();
+  case Subject::arithmetic:
+    return is_judged(rows) && facts.inputs.scene.host.arithmetic == scene::Arithmetic::fixed;
+  case Subject::host:
+    return facts.level->has_codes() && facts.inputs.scene.host.counts();
   case Subject::reference:
     return is_judged(rows);
   }
@@ -72,6 +76,9 @@ void add_totals(levels::Subject subject, const StepLog& rows, std::vector<pictur
 }
 
 std::string hardware_text(const machine::HardwareTime& time, double mhz) {
+  if (time.host_seconds)
+    return fmt::format("{:.3g} s, {:.3g} % of it the host's; of array and bus, {:.0f} % on the bus",
+                       time.seconds(mhz), 100 * time.host_share(mhz), 100 * time.bus_share());
   return fmt::format("{:.3g} s at {} MHz, {:.0f} % of it on the bus (the host's own part is not known)",
                      time.seconds(mhz), mhz, 100 * time.bus_share());
 }
@@ -102,6 +109,7 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
     lines.push_back({"time on hardware", hardware_text(time, facts.inputs.array.clock_mhz)});
     lines.push_back({"utilisation", utilisation_text(timeline)});
     add_totals(Subject::clock, rows, lines);
+    if (is_shown(Subject::host, facts, rows)) add_totals(Subject::host, rows, lines);
   }
   add_totals(Subject::motion, rows, lines);
   if (const auto o = picture_origin(mesh.mesh()); o != std::array<double, 3>{0, 0, 0})
@@ -112,7 +120,8 @@ FigureTable run_table(const RunFacts& facts, const StepLog& rows, const levels::
 
 FigureTable accuracy_table(const RunFacts& facts, const StepLog& rows) {
   FigureTable table{"Against the double reference, step by step", {}};
-  for (const Subject subject : {Subject::reference, Subject::certainty, Subject::network})
+  for (const Subject subject :
+       {Subject::reference, Subject::arithmetic, Subject::certainty, Subject::network})
     if (is_shown(subject, facts, rows)) add_totals(subject, rows, table.second);
   return table;
 }

@@ -9,13 +9,20 @@
 
 namespace hopmesh::run {
 
+std::string host_text(const scene::HostSpec& host) {
+  return fmt::format("host {} at {:g} MHz, {:g} cycles an instruction", name_of(host.core), host.clock_mhz,
+                     host.cpi);
+}
+
 machine::Timeline timeline_of_run(const RunFacts& facts, const levels::BuiltMesh& mesh, const StepLog& rows) {
   const auto sum = [&](std::uint64_t levels::StepRow::*figure) {
     return count_of(rows, figure, levels::Summary::sum);
   };
+  const scene::HostSpec& host = facts.inputs.scene.host;
   return machine::timeline_of(
       facts.inputs.array, mesh.topology(),
-      {sum(&levels::StepRow::cycles), sum(&levels::StepRow::bus_cycles), sum(&levels::StepRow::sweeps)});
+      {sum(&levels::StepRow::cycles), sum(&levels::StepRow::bus_cycles), sum(&levels::StepRow::sweeps),
+       host.known_seconds(total_of(rows, &levels::StepRow::instructions, levels::Summary::sum))});
 }
 
 const levels::StepRow* typical_step(const StepLog& rows) {
@@ -35,13 +42,16 @@ pictures::Drawing timeline_drawing(const RunFacts& facts, const levels::BuiltMes
   const spec::Topology& t = mesh.topology();
   machine::TimelineView view;
   view.title = "Who works when";
-  view.note = fmt::format("array {} at {} MHz, as counted; the host's own part is not known", array.name,
-                          array.clock_mhz);
+  const scene::HostSpec& host = facts.inputs.scene.host;
+  view.note = fmt::format("array {} at {} MHz, as counted; {}", array.name, array.clock_mhz,
+                          host.counts() ? host_text(host) : "the host's own part is not known");
   view.runs = typical_load(facts, rows).runs;
   view.read = view.runs * machine::run_transfers(array, t, levels::longest_burst).read;
   view.clock_mhz = array.clock_mhz;
   if (const levels::StepRow* row = typical_step(rows)) {
-    view.step = machine::timeline_of(array, t, {row->cycles, row->bus_cycles, row->sweeps});
+    view.step = machine::timeline_of(
+        array, t,
+        {row->cycles, row->bus_cycles, row->sweeps, host.known_seconds(row->instructions.value_or(0))});
     view.step_name =
         fmt::format("Step {}, the one in the middle: {}", row->step, input::with_noun(row->sweeps, "sweep"));
   }

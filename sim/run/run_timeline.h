@@ -10,6 +10,9 @@ namespace hopmesh::run {
 /// Of all steps, at a level of the array.
 machine::Timeline timeline_of_run(const RunFacts& facts, const levels::BuiltMesh& mesh, const StepLog& rows);
 
+/// An emulated host in a phrase.
+std::string host_text(const scene::HostSpec& host);
+
 /// The step in the middle, by sweeps, of those that are kept; none without steps.
 const levels::StepRow* typical_step(const StepLog& rows);
 /// Lanes of that step and shares of all of them, for the report.

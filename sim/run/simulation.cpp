@@ -50,8 +50,8 @@ bool one_step(levels::Mover& motion, std::uint64_t steps, const std::vector<Step
 
 RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector<StepSink*>& sinks,
                    const std::atomic<bool>& stop, RunResult earlier) {
-  using Clock = std::chrono::steady_clock;
-  const auto began = Clock::now();
+  using Wall = std::chrono::steady_clock;
+  const auto began = Wall::now();
   const double used_before = levels::processor_seconds();
   RunResult result = std::move(earlier);
   result.sentence = all_done(steps);
@@ -63,7 +63,7 @@ RunResult simulate(levels::Mover& motion, std::uint64_t steps, const std::vector
     result.sentence = fmt::format("Interrupted after {} of {} steps; their results are complete.",
                                   result.rows.size(), steps);
   if (const std::string unrest = unrest_text(result.rows); !unrest.empty()) result.sentence += " " + unrest;
-  result.wall_seconds += std::chrono::duration<double>(Clock::now() - began).count();
+  result.wall_seconds += std::chrono::duration<double>(Wall::now() - began).count();
   result.processor_seconds = levels::processor_seconds() - used_before;
   return result;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/scene/force_keys.h"
+#include "sim/scene/host_keys.h"
 #include "sim/scene/motion_keys.h"
 #include "sim/scene/node_keys.h"
 
@@ -21,6 +22,7 @@ struct Scene {
   RelaxSpec relax;
   RivalSpec rival;
   ForceSpec force;
+  HostSpec host;
 
   /// As reference and firmware call it: probe, or the rule of an incremental one.
   std::string formulation_name() const {

@@ -50,7 +50,7 @@ input::Keys scene_keys(Scene& s) {
                       .allows("a line of text")};
   for (const input::Keys& some : {shape_keys(s.mesh), spring_keys(s.mesh), node_keys(s.mesh),
                                   motion_keys(s.motion, s.probe, s.incremental, s.relax, s.rival),
-                                  force_keys(s.force, moving(s.motion, s.incremental))})
+                                  force_keys(s.force, moving(s.motion, s.incremental)), host_keys(s.host)})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -32,7 +32,7 @@ struct PointRow {
   Maybe output_error, output_error_median, rounding_error, rounding_error_median, stopping_error;
   Maybe stopping_error_median, position_error;
   std::vector<Maybe> reference_at, truth_at, floor_at, sensitivity_at; ///< [times of the study]
-  Maybe hardware_seconds, utilisation, utilisation_with_bus;
+  Maybe hardware_seconds, instructions, utilisation, utilisation_with_bus, area_kge, energy_joule;
   std::string sentence;
 };
 
@@ -90,9 +90,12 @@ inline constexpr ResultColumn all_result_columns[] = {
     {"cycles", "", "of the array, in all", &PointRow::cycles, Role::work},
     {"bus_cycles", "", "that the host held the bus, in all", &PointRow::bus_cycles, Role::work},
     {"hardware_seconds", "s",
-     "cycles of array and bus together at the array's clock; the host's own part is not known, and in no "
-     "figure; empty for methods that are no array",
+     "cycles of array and bus together at the array's clock, and with `host.processor = \"rv32\"` its "
+     "instructions at its own; of this machine's processor as host the part is not known, and in no figure; "
+     "empty for methods that are no array",
      &PointRow::hardware_seconds, Role::work},
+    {"instructions", "", "of an emulated host, in all; empty where nobody counts them",
+     &PointRow::instructions, Role::work},
     {"array_seconds", "s", "the array's part of it, without the bus", &PointRow::array_seconds, Role::work},
     {"host_seconds", "s",
      "processor time of this machine (all threads) for the motion alone, without the reference's judgement "
@@ -116,6 +119,13 @@ inline constexpr ResultColumn all_result_columns[] = {
     {"multiplier_bits", "", "of all multipliers, width times width: w·L, R·u, and s by the reciprocal",
      &PointRow::multiplier_bits},
     {"divider_bits", "", "of the subtractors of dividers", &PointRow::divider_bits},
+    {"area_kge", "kGE",
+     "logic and memories in OSU's 0.18 um cells by the fitted model, in thousands of gates; empty for "
+     "methods "
+     "that are no array",
+     &PointRow::area_kge, Role::work},
+    {"energy_joule", "J", "of array and bus in that technology, by the model; the host's own is in no figure",
+     &PointRow::energy_joule, Role::work},
     {"largest_strain", "", "over the motion", &PointRow::largest_strain},
     {"omega", "1/s", "of the stiffest wave of the mesh at the start", &PointRow::omega},
     {"sentence", "", "how it ended", &PointRow::sentence},

@@ -2,6 +2,7 @@
 
 #include "rtl_model/spec/schedule.h"
 #include "sim/levels/multiplies.h"
+#include "sim/machine/cost/whole_cost.h"
 #include "sim/machine/silicon.h"
 #include "sim/machine/timeline.h"
 #include "sim/run/run_totals.h"
@@ -23,8 +24,16 @@ std::vector<Maybe> distances(const std::vector<run::Positions>& ours,
   return all;
 }
 
-void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRow& row) {
-  const machine::Timeline timeline = machine::timeline_of(array, t, {row.cycles, row.bus_cycles, row.sweeps});
+/// Empty where the model has nothing to go by.
+Maybe known(double figure) {
+  return std::isnan(figure) ? Maybe{} : Maybe{figure};
+}
+
+void add_hardware(const scene::Inputs& inputs, const spec::Topology& t, std::uint64_t runs, PointRow& row) {
+  const spec::ArraySpec& array = inputs.array;
+  const machine::Work work{row.cycles, row.bus_cycles, row.sweeps,
+                           inputs.scene.host.known_seconds(row.instructions.value_or(0))};
+  const machine::Timeline timeline = machine::timeline_of(array, t, work);
   row.hardware_seconds = timeline.time().seconds(array.clock_mhz);
   row.utilisation = timeline.utilisation();
   row.utilisation_with_bus = timeline.utilisation_with_bus();
@@ -32,6 +41,8 @@ void add_hardware(const spec::ArraySpec& array, const spec::Topology& t, PointRo
   row.memory_bits = machine::memory_bits(array, t).total();
   row.multiplier_bits = machine::multiplier_bits(array, t).total();
   row.divider_bits = machine::divider_bits(array, t);
+  row.area_kge = known(machine::area_kge(array, t));
+  row.energy_joule = known(machine::energy_joule(array, t, work, runs));
 }
 
 void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const levels::BuiltMesh& mesh,
@@ -56,7 +67,10 @@ void sum_up(const run::RunResult& result, const scene::Inputs& inputs, const lev
     row.stopping_error_median = over_steps(&ReferenceError::stopping, Summary::median);
   }
   row.array_seconds = static_cast<double>(row.cycles) / (inputs.array.clock_mhz * 1e6);
-  if (row.cycles > 0) add_hardware(inputs.array, mesh.topology(), row);
+  if (inputs.scene.host.counts() && row.cycles > 0)
+    row.instructions = run::total_of(result.rows, &StepRow::instructions, Summary::sum);
+  const std::uint64_t runs = row.steps * static_cast<std::uint64_t>(inputs.scene.relax.expansions);
+  if (row.cycles > 0) add_hardware(inputs, mesh.topology(), runs, row);
 }
 
 StabilityFacts facts_of(const scene::Inputs& inputs, const levels::BuiltMesh& mesh,

@@ -56,6 +56,16 @@ void relax(benchmark::State& state, const GridNetwork& network, const Options& o
   state.SetLabel(e.kernel());
 }
 
+/// Momentum on a flag; `apart`: with a weight that differs from its mirror image, so that none is kept once.
+const GridNetwork& momentum_flag(std::size_t rows, bool apart = false) {
+  static std::map<std::size_t, GridNetwork> known;
+  const GridNetwork& network = flag(rows, "", output_keys("momentum"));
+  if (!apart) return network;
+  const auto [at, is_new] = known.try_emplace(rows, network);
+  if (is_new) at->second.weights[1] ^= 1; // from y to x of the first cell
+  return at->second;
+}
+
 /// That network in doubles, relaxed by the reference in the same order.
 void relax_reference(benchmark::State& state) {
   const scene::Inputs inputs = scene::read_inputs("flag-400", "", {});
@@ -107,17 +117,33 @@ template <typename Body> void add(const std::string& name, Body body, bool wall 
 // The roofs are of the widest instructions; a processor without them is measured without a roof.
 void register_roofs() {
   if (!__builtin_cpu_supports("avx512vnni") || !__builtin_cpu_supports("avx512bw")) return;
-  for (std::size_t kib : {32, 96, 384, 2560, 8192, 262144})
+  for (std::size_t kib : {32, 96, 384, 1664, 2560, 8192, 262144})
     add("roof read KiB/" + std::to_string(kib), [=](benchmark::State& s) { read_roof(s, kib << 10); });
   add("roof multiply-add/int16", multiply_roof);
 }
 
 void register_stages() {
-  for (std::size_t rows : {20, 40, 100, 1000})
-    for (const char* output : {"projected", "momentum"})
-      add(std::string(output) + "/" + std::to_string(rows * rows), [=](benchmark::State& s) {
-        relax(s, flag(rows, "", output_keys(output)), {1, "auto", 1});
+  for (std::size_t rows : {20, 40, 100, 1000}) {
+    const std::string nodes = "/" + std::to_string(rows * rows);
+    add("projected" + nodes, [=](benchmark::State& s) {
+      relax(s, flag(rows, "", output_keys("projected")), {1, "auto", 1});
+    });
+    for (bool apart : {false, true})
+      add((apart ? "momentum, not kept once" : "momentum") + nodes, [=](benchmark::State& s) {
+        relax(s, momentum_flag(rows, apart), {1, "auto", 1});
       });
+  }
+  for (std::size_t threads : {1, 2})
+    add(
+        "threads, momentum 10000/" + std::to_string(threads),
+        [=](benchmark::State& s) {
+          relax(s, momentum_flag(100), {threads, "auto", 1});
+        },
+        true);
+  for (std::size_t sweeps : {4, 8, 16})
+    add("followed, momentum 1000000/" + std::to_string(sweeps), [=](benchmark::State& s) {
+      relax(s, momentum_flag(1000), {1, "auto", sweeps});
+    });
 }
 
 void register_all() {

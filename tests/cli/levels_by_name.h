@@ -15,4 +15,9 @@ inline std::string name_of_level(const ::testing::TestParamInfo<std::string>& ma
   return name;
 }
 
+/// What a line of the program needs beside the level's name: an array that the level has.
+inline std::string array_for(const std::string& name) {
+  return levels::level_named(name, "").make_ready ? " --array folded --set array.elements=4" : "";
+}
+
 } // namespace hopmesh::tests

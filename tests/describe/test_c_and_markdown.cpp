@@ -90,11 +90,13 @@ TEST(Descriptions, MarkdownTellsTheTable) {
 TEST(PrintRegisters, RefusesWhatIsNoFormatInALine) {
   Surroundings world;
   world.program = std::string(HOPMESH_BINARY_DIR) + "/print_registers";
-  const Finished none = run_program({}, world), other = run_program({"verilog"}, world);
+  const Finished none = run_program({}, world), other = run_program({"vhdl"}, world);
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_EQ(none.err, "print_registers: found no format, expected markdown, c, systemrdl, ip-xact, svd\n");
+  EXPECT_EQ(none.err,
+            "print_registers: found no format, expected markdown, c, systemrdl, ip-xact, svd, verilog\n");
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_EQ(other.err, "print_registers: found \"verilog\", expected markdown, c, systemrdl, ip-xact, svd\n");
+  EXPECT_EQ(other.err,
+            "print_registers: found \"vhdl\", expected markdown, c, systemrdl, ip-xact, svd, verilog\n");
   EXPECT_EQ(run_program({"svd"}, world).out, file_text("svd"));
   EXPECT_EQ(run_shell(world.program + " svd > /dev/full").exit_code, 2);
 }

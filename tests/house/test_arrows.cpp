@@ -21,6 +21,7 @@ const std::map<std::string, Rooms> allowed = {
     {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
     {"rtl_model/describe", {"firmware/registers.h"}},
+    {"rtl_model/verilog", {}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},
@@ -31,7 +32,7 @@ const std::map<std::string, Rooms> allowed = {
     {"sim/machine", {"rtl_model/spec", "sim/input", "sim/pictures"}},
     {"sim/levels",
      {"rtl_model/spec", "rtl_model/systemc", "firmware", "sim/input", "sim/scene", "sim/reference",
-      "sim/rivals", "sim/engine", "sim/files"}},
+      "sim/rivals", "sim/engine", "sim/files", "sim/machine"}},
     {"sim/run",
      {"rtl_model/spec", "sim/input", "sim/scene", "sim/files", "sim/pictures", "sim/machine", "sim/levels"}},
     {"sim/cosim", {"rtl_model/spec", "sim/input", "sim/files", "sim/levels", "sim/run"}},
@@ -70,6 +71,7 @@ const std::vector<std::pair<std::regex, Rooms>> libraries = {
     {std::regex("(cvode|nvector|sun.*)/.*"), {"sim/rivals"}},
     {std::regex("CLI/.*"), {"sim/cli"}},
     {std::regex("toml.*"), {"sim/input"}},
+    {std::regex("unicorn/.*"), {"sim/levels"}},
     {std::regex("png\\.h|tiny_gltf\\.h"), {"sim/files", "sim/pictures"}},
 };
 
@@ -81,11 +83,14 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"network", "quantise"},
                                             {"springs", "relax", "window"},
                                             {"driver", "time_step", "residual"},
-                                            {"formulation"},
+                                            {"formulation", "fixed"},
                                             {"incremental"},
                                             {"refine"},
                                             {"probe", "implicit", "static"},
-                                            {"integrator"}};
+                                            {"integrator"},
+                                            {"core_map", "core_job"},
+                                            {"core_bus", "core_memory"},
+                                            {"core_main"}};
 
 // Written by CMake when the build is configured.
 const std::set<std::string> generated = {"version.h", "place.h"};
@@ -156,10 +161,10 @@ void judge_include(const TreeFile& file, const std::string& included) {
       << file.path << " includes " << included;
 }
 
-/// Header and source; those of driver and network, which are long, have further parts.
+/// Header and source; those of driver, network, quantise and fixed, which are long, have further parts.
 std::string unit_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  for (const char* const unit : {"driver", "network"})
+  for (const char* const unit : {"driver", "network", "quantise", "fixed"})
     if (starts_with(stem, std::string(unit) + '_')) return unit;
   return stem;
 }

@@ -65,6 +65,7 @@ const std::map<std::string, std::string> name_levels = {
     {"sim/rivals/", "each rival knows its own name"},
     {"sim/scene/", "implicit rules are keys of a scene; two rivals are called after them"},
     {"sim/reference/", "the implicit rules again"},
+    {"sim/cli/array/rtl.cpp", "a verb bears such a name"},
     {"sim/study/result_chart.cpp", "the method beside which a chart draws a step solved exactly"},
 };
 

@@ -17,7 +17,8 @@ std::string literal_of_level(const std::string& line) {
 }
 
 bool may_name_levels(const std::string& path) {
-  return starts_with(path, "sim/levels/") || starts_with(path, "tests/");
+  const bool is_verb = path == "sim/cli/array/rtl.cpp"; // which bears such a name
+  return is_verb || starts_with(path, "sim/levels/") || starts_with(path, "tests/");
 }
 
 TEST(Levels, NobodyElseNamesALevel) {

@@ -30,10 +30,11 @@ TEST(LevelTable, EveryRowHasANameOfItsOwnAndOneWayToBeMade) {
 
 TEST(LevelTable, ListsByKind) {
   EXPECT_THAT(levels::level_names({Kind::reference}), ElementsAre("reference"));
-  EXPECT_THAT(levels::level_names({Kind::array}), ElementsAre("engine", "systemc", "systemc-clock"));
+  EXPECT_THAT(levels::level_names({Kind::array}), ElementsAre("engine", "systemc", "systemc-clock", "rtl"));
   EXPECT_EQ(levels::level_names({Kind::rival}), rivals::names());
   EXPECT_EQ(levels::level_names().size(), levels::levels().size());
   EXPECT_THAT(levels::compared_names(), ElementsAre("reference", "engine", "systemc"));
+  EXPECT_THAT(levels::campaign_names(), ElementsAre("engine", "systemc", "systemc-clock"));
   EXPECT_EQ(levels::default_level().name, "engine");
 }
 
@@ -45,7 +46,7 @@ TEST(LevelTable, RefusesANameOfNoneOrOfAnotherKind) {
   EXPECT_EQ(refusal("systemc", levels::any_kind), "");
   EXPECT_EQ(refusal("rk4", levels::any_kind), "");
   EXPECT_EQ(refusal("rk4", levels::sweeping),
-            "--level: found rk4, expected reference, engine, systemc, systemc-clock");
+            "--level: found rk4, expected reference, engine, systemc, systemc-clock, rtl");
   EXPECT_THAT(refusal("sytemc", levels::any_kind), HasSubstr("(did you mean systemc?)"));
   EXPECT_THAT(refusal("", levels::any_kind), HasSubstr("--level: expected reference, engine"));
 }

@@ -1,5 +1,6 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
 #include "sim/cli/options.h"
+#include "sim/cosim/campaign_arrays.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
 #include "sim/input/count_text.h"
@@ -18,7 +19,7 @@ using cosim::Ways;
 using input::grouped;
 
 struct FuzzOptions {
-  std::vector<std::string> levels = levels::level_names({levels::Kind::array});
+  std::vector<std::string> levels = levels::campaign_names(), arrays;
   double seconds = 0;
   std::uint64_t seed = 1, first = 0;
   std::int64_t cases = 0;
@@ -43,19 +44,20 @@ std::string command_of(const FuzzOptions& o, std::uint64_t first) {
   if (o.cases > 0)
     command += fmt::format(" --cases {}", o.first + static_cast<std::uint64_t>(o.cases) - first);
   if (o.seconds > 0) command += fmt::format(" --seconds {:g}", o.seconds);
-  if (o.levels != levels::level_names({levels::Kind::array}))
-    command += fmt::format(" --levels {}", fmt::join(o.levels, ","));
+  if (o.levels != levels::campaign_names()) command += fmt::format(" --levels {}", fmt::join(o.levels, ","));
+  if (!o.arrays.empty()) command += fmt::format(" --arrays {}", fmt::join(o.arrays, ","));
   return command;
 }
 
 // Small enough to be read, in a file that shows it again.
-int tell_finding(const FuzzOptions& o, const Ways& all, const cosim::Finding& finding) {
+int tell_finding(const FuzzOptions& o, const Ways& all, const cosim::CampaignPlan& plan,
+                 const cosim::Finding& finding) {
   fmt::print("case {} of seed {}: {}\n", finding.number, o.seed, finding.text);
   const std::filesystem::path file =
       std::filesystem::path(o.out) / fmt::format("seed-{}-case-{}.txt", o.seed, finding.number);
   const std::string again = "hopmesh fuzz --replay " + input::shell_word(file.string());
   const cosim::KeptFinding kept = cosim::keep_finding(
-      file, all, o.seed, finding, {"found by: " + command_of(o, finding.number), "again: " + again});
+      file, all, plan, finding, {"found by: " + command_of(o, finding.number), "again: " + again});
   if (!kept.repeats) fmt::print("by itself the case does not differ; it is kept as it is\n");
   fmt::print("smallest that still differs: {}\n  {}\n  {}\n", cosim::describe(kept.job), file.string(),
              again);
@@ -68,6 +70,9 @@ int campaign(const FuzzOptions& o, const Ways& all) {
   if (o.cases > 0) plan.cases = static_cast<std::uint64_t>(o.cases);
   if (o.seconds > 0) plan.seconds = o.seconds;
   if (o.cases == 0 && o.seconds == 0) plan.seconds = 10;
+  std::vector<std::string> notes;
+  plan.arrays = cosim::campaign_arrays(o.levels, o.arrays, notes);
+  tell(notes);
   levels::catch_interrupts();
   cosim::CampaignResult r;
   {
@@ -78,7 +83,7 @@ int campaign(const FuzzOptions& o, const Ways& all) {
   const double rate = r.seconds > 0 ? static_cast<double>(r.cases) / r.seconds : 0;
   fmt::print("seed {}, cases {} to {}: {} equal, {} different; {:.1f} s of wall time, {:.0f} cases/s\n",
              o.seed, o.first, r.next, grouped(r.cases), r.finding ? 1 : 0, r.seconds, rate);
-  if (r.finding) return tell_finding(o, all, *r.finding);
+  if (r.finding) return tell_finding(o, all, plan, *r.finding);
   if (!r.interrupted) return done;
   fmt::print("interrupted; to go on: {}\n", command_of(o, r.next));
   return interrupted;
@@ -123,6 +128,9 @@ void add_fuzz(CLI::App& program, int& exit_code) {
   verb->add_option("--levels", o->levels,
                    fmt::format("{}, each in all its ways of computing",
                                fmt::join(levels::level_names({levels::Kind::array}), ", ")))
+      ->delimiter(',');
+  verb->add_option("--arrays", o->arrays,
+                   "random networks on these arrays, presets or files, instead of random arrays")
       ->delimiter(',');
   verb->add_option("-j", o->children, "processes at once; changes no case")->check(whole_number(1, 256));
   verb->add_option("--out", o->out, "folder for a case that differs, made as small as it gets")

@@ -12,7 +12,7 @@ namespace {
 
 struct RunOptions {
   input::InputWords words;
-  std::string level = levels::default_level().name, out, wave_window, wave_cells;
+  std::string level = levels::default_level().name, host, out, wave_window, wave_cells;
   levels::WaveRequest wave;
   std::int64_t steps = 0, threads = 1;
   bool check = false, no_check = false;
@@ -41,14 +41,23 @@ run::FlightPlan plan_of(const RunOptions& o) {
   return plan;
 }
 
+// A key like others, so that manifest, studies and checkpoints know it.
+input::InputWords with_host(input::InputWords words, const std::string& host) {
+  if (!host.empty()) words.overrides.push_back("host.processor=" + host);
+  return words;
+}
+
 // In the command that repeats a run, where its files go is no part of it, and --steps stands for itself.
 run::Flight first_flight(const RunOptions& o) {
   const levels::Level& level = levels::level_named(o.level, "--level");
   run::FlightPlan plan = plan_of(o);
   plan.level = &level, plan.port.wave = wave_of(o, level);
-  plan.command = fmt::format("hopmesh run {} --level {}", text_of(o.words), o.level);
+  plan.command = fmt::format("hopmesh run {} --level {}", text_of(with_host(o.words, o.host)), o.level);
   plan.check = o.check || (level.checked && !o.no_check);
-  levels::Prepared prepared = prepare(with_steps(o.words, o.steps));
+  if (!o.host.empty() && !level.has_bus())
+    throw input::input_error("", 0, "--host", "level " + o.level,
+                             "a level of the array: only those have a host");
+  levels::Prepared prepared = prepare(with_host(with_steps(o.words, o.steps), o.host));
   const auto folder = results_folder(o.out, prepared.inputs.scene.name);
   return {std::move(prepared), folder, plan};
 }
@@ -85,8 +94,8 @@ void allow_resume(CLI::App& verb, RunOptions& o) {
                       "DIR: goes on with the run that was interrupted or killed there, bit for bit; "
                       "beside it only --steps (more than are done), --checkpoint-every and -j")
           ->group("Safety");
-  for (const char* told : {"SCENE", "--array", "--set", "--level", "--out", "--check", "--no-check", "--wave",
-                           "--wave-window", "--wave-cells"})
+  for (const char* told : {"SCENE", "--array", "--set", "--level", "--host", "--out", "--check", "--no-check",
+                           "--wave", "--wave-window", "--wave-cells"})
     resume->excludes(verb.get_option(told));
 }
 
@@ -101,6 +110,10 @@ void add_run(CLI::App& program, int& exit_code) {
                                fmt::join(levels::level_names(levels::sweeping), " | "),
                                fmt::join(levels::level_names({levels::Kind::rival}), " | ")))
       ->capture_default_str();
+  verb->add_option(
+      "--host", o->host,
+      "native | rv32: who runs the firmware; rv32 counts instructions (host.processor, beside it "
+      "host.core and others)");
   verb->add_option("--steps", o->steps, "steps to do, instead of the scene's")->check(whole_number(1));
   verb->add_option("--out", o->out, "results folder (out/NAME of the scene)");
   auto* check = verb->add_flag("--check", o->check,

@@ -3,9 +3,9 @@
 #include "sim/engine/aligned.h"
 #include "sim/engine/kernels/fast_layout.h"
 #include "sim/engine/kernels/kernel_fit.h"
+#include "sim/engine/kernels/once_weights.h"
 #include "sim/engine/kernels/row_inverse.h"
 
-#include <array>
 #include <atomic>
 
 namespace hopmesh::engine {
@@ -19,11 +19,15 @@ void raise(std::atomic<std::uint64_t>& most, std::uint64_t code) {
   }
 }
 
+/// Kernels from the fastest to the one for any array: of the first two, rows as they are written may have
+/// none.
+enum class Way { once, slim, any };
+
 class FastCore : public SweepCore {
  public:
   FastCore(const NeuronPlan& plan, const Layout& layout, const KernelSet& kernels)
       : plan_(plan), layout_(layout), kernels_(kernels),
-        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), at_(layout, per_cell_),
+        per_cell_(static_cast<std::size_t>(plan.neurons_per_cell)), at_(layout, per_cell_, synchronous()),
         fits_slim_(kernels.slim && fits_slim(plan)) {
     const std::size_t neurons = layout.slots() * per_cell_, slots = layout.slots() + 2 * L;
     weight_.assign(at_.first_weight.back(), 0);
@@ -35,14 +39,18 @@ class FastCore : public SweepCore {
     if (synchronous()) links_[1] = links_[0];
     if (plan.output == spec::Output::momentum) ahead_ = state_;
     if (plan.hold > 0) most_sum_ = multiplier_;
-    slim_ = fits_slim_;
+    if (fits_slim_) bias_ready_ = bias_, brief_.assign(neurons + L, 0);
+    if (fits_slim_ && kernels.once && fits_brief(plan))
+      once_ = std::make_unique<OnceWeights>(layout, at_, per_cell_, *kernels.once);
+    choose();
     set_arguments();
   }
 
   void put_weights(std::size_t slot, std::size_t p, std::size_t first_tap, const std::int32_t* codes,
                    std::size_t count) override {
     std::int16_t* row = weight_row(slot, p);
-    slim_ = fits_slim_;
+    if (once_) once_->change();
+    choose();
     for (std::size_t k = 0; k < count; ++k)
       row[at_.in_row(slot, first_tap + k)] = static_cast<std::int16_t>(codes[k]);
   }
@@ -51,7 +59,7 @@ class FastCore : public SweepCore {
   }
   void put_bias(std::size_t slot, std::size_t p, std::int32_t code) override {
     bias_[place(slot, p)] = code;
-    slim_ = fits_slim_;
+    choose();
   }
   std::int32_t bias(std::size_t slot, std::size_t p) const override { return bias_[place(slot, p)]; }
   void put_state(std::size_t slot, std::size_t p, std::int32_t code) override {
@@ -66,20 +74,16 @@ class FastCore : public SweepCore {
   void fire(std::size_t first, std::size_t last, const SweepOrder& order, SweepRecord& record) override;
   void end_sweeps(std::uint32_t count) override { turn_ += count; }
   void restart() override;
-  void keep_outputs() override { kept_state_ = state_, kept_ahead_ = ahead_, kept_links_ = links_[turn(0)]; }
-  void restore_outputs() override {
-    state_ = kept_state_, ahead_ = kept_ahead_, links_[turn(0)] = kept_links_;
-    point();
-  }
-  std::size_t bytes_per_sweep() const override {
-    const std::size_t held = slim_ ? 0 : 8 * most_sum_.size();
-    return 4 * weight_.size() + sizeof(Source) * at_.source.size() + 4 * at_.far_slot.size() +
-           layout_.slots() * (per_cell_ * (4 + 8 + 8) + 2 * 4 * std::max<std::size_t>(per_cell_ - 1, 1)) +
-           held + 8 * ahead_.size();
-  }
+  void keep_outputs() override;
+  void restore_outputs() override;
+  std::size_t bytes_per_sweep() const override;
   const char* name() const override { return kernels_.name; }
 
  private:
+  void choose() { way_ = once_ && once_->may_fit() ? Way::once : fits_slim_ ? Way::slim : Way::any; }
+  bool rows_fit();
+  void put_inverse(std::size_t at, std::uint64_t norm);
+
   bool synchronous() const { return plan_.schedule == spec::Schedule::synchronous; }
   std::size_t place(std::size_t slot, std::size_t p) const { return at_.place(slot, p); }
   std::int16_t* weight_row(std::size_t slot, std::size_t p) {
@@ -102,21 +106,23 @@ class FastCore : public SweepCore {
   const std::size_t per_cell_;
   const FastLayout at_;
   const bool fits_slim_;
-  bool slim_ = false; ///< rows, as they are written, may be for slim kernels
+  Way way_ = Way::any;
   std::atomic<std::uint64_t> largest_row_{0}, largest_sum_{0}; ///< sum |w|; and s as large as it can be
   std::atomic<bool> lonely_{false};                            ///< some s has no divisor
+  std::atomic<bool> long_{false};                              ///< some multiplier is not brief
   AlignedVector<std::uint32_t> weight_;
-  AlignedVector<std::int32_t> bias_, state_, ahead_, kept_state_, kept_ahead_;
+  AlignedVector<std::int32_t> bias_, bias_ready_, brief_, state_, ahead_, kept_state_, kept_ahead_;
   AlignedVector<std::int64_t> multiplier_, most_sum_;
   std::array<Links, 2> links_;
   Links kept_links_;
-  std::uint32_t turn_ = 0; ///< sweeps up to now
+  std::unique_ptr<OnceWeights> once_; ///< of arrays that have kernels for it
+  std::uint32_t turn_ = 0;            ///< sweeps up to now
   KernelArgs args_{};
   FireKernel fire_ = nullptr;
 };
 
 void FastCore::set_arguments() {
-  const spec::Formats& f = plan_.formats;
+  args_ = arguments_of(plan_);
   args_.neighbours = at_.neighbours.data();
   args_.first_weight = at_.first_weight.data();
   args_.first_source = at_.first_source.data();
@@ -126,30 +132,11 @@ void FastCore::set_arguments() {
   args_.weight = weight_.data();
   args_.bias = bias_.data();
   args_.multiplier = multiplier_.data();
-  args_.synchronous = synchronous();
-  args_.bias_up = -plan_.bias_down;
-  args_.state_fraction = f.state.fraction_bits();
-  args_.one_drive = plan_.one_drive;
-  args_.one_state = plan_.one_state;
-  args_.at_one = plan_.least_at_one;
-  args_.at_minus_one = plan_.most_at_minus_one;
-  const Normalise how = normalise_of(plan_);
-  if (how == Normalise::scale) args_.drive = shift_rounding(plan_.scaled_down, f.drive.rounding);
-  if (how == Normalise::multiply || how == Normalise::step_multiply || how == Normalise::ahead_multiply)
-    args_.drive = shift_rounding(plan_.multiplier_places, f.drive.rounding);
-  if (divides(how)) args_.division = kernel_division(plan_.ratio_up, f.drive.rounding);
   args_.state = state_.data();
-  args_.state_rounding = shift_rounding(f.drive.fraction_bits(), f.state.rounding);
-  args_.link = shift_rounding(plan_.link_down, f.link.rounding);
   args_.ahead = ahead_.data();
   args_.most_sum = most_sum_.data();
-  args_.step_up = std::max(-plan_.step_down, 0);
-  args_.step = shift_rounding(std::max(plan_.step_down, 0), f.state.rounding);
-  args_.gained = shift_rounding(spec::momentum_down, f.state.rounding);
-  args_.beyond_up = f.drive.fraction_bits() + 2;
-  args_.most_drive = plan_.most_drive;
-  args_.gain = plan_.gain;
-  if (fits_slim_) args_.slim = slim_quotient(plan_);
+  args_.once.bias = bias_ready_.data();
+  args_.once.multiplier = brief_.data();
   point();
 }
 
@@ -171,20 +158,53 @@ void FastCore::show(std::size_t slot, std::size_t p, std::int32_t code) {
 
 void FastCore::restart() {
   if (ahead_.empty()) return;
+  if (way_ == Way::once) {
+    KernelArgs args = args_;
+    once_->point(args.once, 1 - turn(0));
+    return once_->kernels().show[per_cell_ - 1](args, 0, layout_.blocks());
+  }
   ahead_ = state_;
   args_.ahead = ahead_.data();
   for (std::size_t slot = 0; slot < layout_.slots(); ++slot)
     for (std::size_t p = 0; p < per_cell_; ++p) show(slot, p, state_[place(slot, p)]);
 }
 
+void FastCore::keep_outputs() {
+  kept_state_ = state_, kept_ahead_ = ahead_;
+  if (way_ == Way::once) return once_->keep_links(turn(0));
+  kept_links_ = links_[turn(0)];
+}
+
+void FastCore::restore_outputs() {
+  state_ = kept_state_, ahead_ = kept_ahead_;
+  if (way_ == Way::once) return once_->restore_links(turn(0));
+  links_[turn(0)] = kept_links_;
+  point();
+}
+
+// Outputs, Y and links are read and written; what a kernel reads twice near by counts once.
+std::size_t FastCore::bytes_per_sweep() const {
+  const std::size_t neurons = layout_.slots() * per_cell_;
+  const bool brief = plan_.normaliser == spec::Normaliser::reciprocal;
+  if (way_ == Way::once) return once_->bytes_per_sweep() + neurons * (4 + (brief ? 4 : 8) + 8 + 8 + 8);
+  const std::size_t held = way_ == Way::slim ? 0 : 8 * most_sum_.size();
+  return 4 * weight_.size() + sizeof(Source) * at_.source.size() + 4 * at_.far_slot.size() +
+         neurons * (4 + 8 + 8) + layout_.slots() * 2 * 4 * std::max<std::size_t>(per_cell_ - 1, 1) + held +
+         8 * ahead_.size();
+}
+
 void FastCore::fire(std::size_t first, std::size_t last, const SweepOrder& order, SweepRecord& record) {
   if (!synchronous()) return fire_(args_, first, last, record.lanes);
   KernelArgs args = args_;
-  const Links& from = links_[turn(order.ahead)];
-  Links& to = links_[turn(order.ahead + 1)];
-  args.xy = from.xy.data(), args.zz = from.zz.data();
-  args.next_xy = to.xy.data(), args.next_zz = to.zz.data();
   args.momentum = order.momentum;
+  if (way_ == Way::once) {
+    once_->point(args.once, turn(order.ahead));
+  } else {
+    const Links& from = links_[turn(order.ahead)];
+    Links& to = links_[turn(order.ahead + 1)];
+    args.xy = from.xy.data(), args.zz = from.zz.data();
+    args.next_xy = to.xy.data(), args.next_zz = to.zz.data();
+  }
   fire_(args, first, last, record.lanes);
 }
 
@@ -198,10 +218,22 @@ std::uint64_t FastCore::divisor(std::size_t block, std::size_t row, std::uint32_
          (static_cast<std::uint64_t>(std::abs(bias)) << plan_.bias_up);
 }
 
+void FastCore::put_inverse(std::size_t at, std::uint64_t norm) {
+  if (way_ == Way::any) {
+    const RowInverse inverse = plan_.hold > 0 ? held_inverse(plan_, norm) : modified_inverse(plan_, norm);
+    multiplier_[at] = inverse.multiplier;
+    if (plan_.hold > 0) most_sum_[at] = inverse.most_sum;
+  } else if (way_ == Way::once && plan_.normaliser == spec::Normaliser::reciprocal) {
+    brief_[at] = brief_inverse(plan_, norm);
+    if (brief_[at] < 0) long_ = true;
+  } else {
+    multiplier_[at] = slim_inverse(plan_, norm).multiplier;
+  }
+}
+
 void FastCore::prepare(std::size_t first, std::size_t last) {
   const RowKernel rows = kernels_.rows[per_cell_ - 1];
   const bool normalises = !plan_.binary && plan_.normaliser != spec::Normaliser::prescaled;
-  const auto invert = slim_ ? slim_inverse : plan_.hold > 0 ? held_inverse : modified_inverse;
   std::vector<std::uint32_t> sums(per_cell_ * L);
   std::uint64_t largest = 0, sum = 0;
   for (std::size_t b = first; b < last; ++b) {
@@ -209,36 +241,48 @@ void FastCore::prepare(std::size_t first, std::size_t last) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
       const std::size_t at = b * per_cell_ * L + k;
       const auto bias = static_cast<std::uint64_t>(std::abs(std::int64_t{bias_[at]}));
+      if (way_ != Way::any)
+        bias_ready_[at] = static_cast<std::int32_t>(std::int64_t{bias_[at]} << args_.bias_up);
       largest = std::max<std::uint64_t>(largest, sums[k]);
       sum = std::max(sum, sums[k] * static_cast<std::uint64_t>(plan_.one_link) + (bias << args_.bias_up));
       if (!normalises) continue;
       const std::uint64_t norm = divisor(b, k, sums[k]);
       if (norm == 0 && bias != 0) lonely_ = true;
-      const RowInverse inverse = invert(plan_, norm);
-      multiplier_[at] = inverse.multiplier;
-      if (!slim_ && plan_.hold > 0) most_sum_[at] = inverse.most_sum;
+      put_inverse(at, norm);
     }
   }
   raise(largest_row_, largest);
   raise(largest_sum_, sum);
 }
 
-// 32 bits hold every sum of products if sum |w| times the largest |link| does. Rows that are nothing for slim
-// kernels are prepared once more for the others.
+/// Do the rows, as they were prepared, fit the kernels that they were prepared for?
+bool FastCore::rows_fit() {
+  if (way_ == Way::any) return true;
+  const bool divider = plan_.normaliser == spec::Normaliser::divider;
+  if (largest_sum_ > INT32_MAX || (divider && lonely_)) {
+    way_ = Way::any;
+    return false;
+  }
+  if (way_ == Way::slim) return true;
+  once_->point(args_.once, 0);
+  if (!lonely_ && !long_ && once_->pack(args_, layout_.blocks())) return true;
+  way_ = Way::slim;
+  return false;
+}
+
+// 32 bits hold every sum of products if sum |w| times the largest |link| does. Rows that are nothing for
+// these kernels are prepared once more for others.
 void FastCore::begin_run(bool by_sum) {
   const Normalise how = normalise_of(plan_);
-  const auto divider = plan_.normaliser == spec::Normaliser::divider;
-  if (slim_ && (largest_sum_ > INT32_MAX || (divider && lonely_))) {
-    slim_ = false;
-    prepare(0, layout_.blocks());
-  }
+  while (!rows_fit()) prepare(0, layout_.blocks());
   const bool wide = largest_row_ * static_cast<std::uint64_t>(plan_.one_link) > INT32_MAX;
   const bool plain =
       args_.drive.plain() && args_.state_rounding.plain() && args_.link.plain() && args_.step.plain();
   const auto& kernels = kernels_.fire[per_cell_ - 1][static_cast<std::size_t>(how)][by_sum];
-  fire_ = is_ahead(how) ? kernels[slim_][!slim_] : kernels[plain][wide];
+  fire_ = is_ahead(how) ? kernels[way_ == Way::slim][way_ != Way::slim] : kernels[plain][wide];
+  if (way_ == Way::once) fire_ = once_->kernels().fire[per_cell_ - 1][how == Normalise::ahead_divide][by_sum];
   largest_row_ = largest_sum_ = 0;
-  lonely_ = false;
+  lonely_ = long_ = false;
   restart();
 }
 

@@ -11,7 +11,8 @@ constexpr std::uint32_t nobody = UINT32_MAX;
 
 } // namespace
 
-FastLayout::FastLayout(const Layout& layout, std::size_t per_cell) : layout_(layout), per_cell_(per_cell) {
+FastLayout::FastLayout(const Layout& layout, std::size_t per_cell, bool in_order)
+    : layout_(layout), per_cell_(per_cell), in_order_(in_order) {
   align_neighbours();
   lay_out_weights();
   find_sources();
@@ -28,7 +29,8 @@ std::int64_t FastLayout::way(std::size_t slot, std::size_t k) const {
 
 // Sixteen lanes find a neighbour best when it is the same way off for all of them: neighbours of one distance
 // in cell numbers get a column of their own, as long as that takes few more columns than the cells have
-// neighbours. (Sums are exact, so their order is free.)
+// neighbours; or twice as many, where cells lie in their own order, since ways that have columns let weights
+// be kept once. (Sums are exact, so their order is free.)
 void FastLayout::align_neighbours() {
   first_column.assign(1, 0);
   for (std::size_t b = 0; b < layout_.blocks(); ++b) {
@@ -38,7 +40,7 @@ void FastLayout::align_neighbours() {
     std::sort(ways.begin(), ways.end());
     ways.erase(std::unique(ways.begin(), ways.end()), ways.end());
     const std::size_t most = layout_.neighbours[b], wanted = ways.size();
-    const bool aligned = wanted <= most + most / 4;
+    const bool aligned = wanted <= most + (in_order_ ? most : most / 4);
     neighbours.push_back(static_cast<std::uint32_t>(aligned ? wanted : most));
     for (std::size_t l = 0; l < L; ++l) {
       for (std::size_t k = 0; k < degree(b * L + l); ++k) {

@@ -11,7 +11,8 @@ namespace hopmesh::engine {
 
 class FastLayout {
  public:
-  FastLayout(const Layout& layout, std::size_t per_cell);
+  /// `in_order`: cells lie by number, as where all fire at once.
+  FastLayout(const Layout& layout, std::size_t per_cell, bool in_order);
 
   /// Index of a neuron's bias, state and multiplier.
   std::size_t place(std::size_t slot, std::size_t p) const {
@@ -52,6 +53,7 @@ class FastLayout {
 
   const Layout& layout_;
   const std::size_t per_cell_;
+  const bool in_order_;
 };
 
 } // namespace hopmesh::engine

@@ -3,10 +3,8 @@
 // instruction sets, and the processor at hand decides at run time.
 #pragma once
 
-#include "sim/engine/lane_extremes.h"
+#include "sim/engine/kernels/once_args.h"
 #include "sim/engine/rounding.h"
-
-#include <cstddef>
 
 namespace hopmesh::engine {
 
@@ -34,7 +32,6 @@ struct KernelQuotient {
 };
 inline constexpr int slim_places =
     15; ///< behind the point of m; Delta V is multiplied in pieces of so many bits
-inline constexpr std::size_t slim_blocks = 4096; ///< after so many a slim kernel's sums might leave 32 bits
 
 struct KernelArgs {
   const std::uint32_t* neighbours;   ///< of a block; even where a cell has one neuron or three
@@ -72,6 +69,8 @@ struct KernelArgs {
   double gain;
   std::int32_t momentum;
   KernelQuotient slim;
+  std::size_t slim_blocks; ///< after so many, sums of Delta V might leave the 32 bits of a slim kernel
+  OnceArgs once;
 };
 
 using FireKernel = void (*)(const KernelArgs& args, std::size_t first, std::size_t last,
@@ -100,10 +99,22 @@ constexpr bool divides(Normalise how) {
   return how == Normalise::divide || how == Normalise::step_divide || how == Normalise::ahead_divide;
 }
 
+/// Kernels for weights kept once, of momentum: [neurons a cell - 1].
+struct OnceKernels {
+  FireKernel fire[3][2][2]; ///< [ahead_multiply, ahead_divide][by sum]
+  /// Writes the planes of a block that face forward, and its own; and the other half: whether those that face
+  /// backward are equal. 0: all weights are equal to what stands, or will stand, for them.
+  std::uint32_t (*pack[3])(const KernelArgs& args, const OnceSource& source, std::size_t block);
+  std::uint32_t (*compare[3])(const KernelArgs& args, const OnceSource& source, std::size_t block);
+  /// Y takes the value of V, and neighbours see it: blocks [first, last), links into `next_link`.
+  void (*show[3])(const KernelArgs& args, std::size_t first, std::size_t last);
+};
+
 /// All kernels of one instruction set: [neurons a cell - 1][Normalise][by sum][plain rounding][wide sums].
 struct KernelSet {
   const char* name;
-  bool slim; ///< are there slim kernels?
+  bool slim;               ///< are there slim kernels?
+  const OnceKernels* once; ///< or null
   FireKernel fire[3][8][2][2][2];
   RowKernel rows[3];
 };
@@ -111,6 +122,7 @@ struct KernelSet {
 extern const KernelSet portable_kernels;
 #ifdef HOPMESH_X86_KERNELS
 extern const KernelSet avx2_kernels, avx512_kernels;
+extern const OnceKernels avx2_once, avx512_once;
 #endif
 
 } // namespace hopmesh::engine

@@ -40,12 +40,14 @@ template <typename Isa> struct KernelAhead : Kernel<Isa> {
   template <int P, Normalise how, bool by_sum>
   static void fire_slim(const KernelArgs& a, std::size_t first, std::size_t last, LaneExtremes& extremes) {
     while (first < last) {
-      const std::size_t end = last - first < slim_blocks ? last : first + slim_blocks;
+      const std::size_t end = last - first < a.slim_blocks ? last : first + a.slim_blocks;
       typename KernelSlim<Isa>::Slim c(a);
       for (std::size_t block = first; block < end; ++block)
         fire_block<P, false>(
             a, block, [&](const auto& sum, std::size_t p) __attribute__((always_inline)) {
-              return KernelSlim<Isa>::template publish_slim<how, by_sum>(sum, (P * block + p) * 16, c);
+              const std::size_t at = (P * block + p) * 16;
+              const Words s = Isa::add_words(sum.sum, Isa::load_words(a.once.bias + at));
+              return KernelSlim<Isa>::template publish_slim<how, by_sum, false>(s, at, c);
             });
       c.store_extremes(extremes);
       first = end;
@@ -96,9 +98,10 @@ template <typename Isa> struct KernelAhead : Kernel<Isa> {
         {HM_AHEAD(P, Normalise::ahead_divide, false), HM_AHEAD(P, Normalise::ahead_divide, true)},           \
   }
 
-template <typename Isa> constexpr KernelSet kernels_of(const char* name) {
+template <typename Isa> constexpr KernelSet kernels_of(const char* name, const OnceKernels* once) {
   return {name,
           !Isa::few,
+          once,
           {HM_CELLS(1), HM_CELLS(2), HM_CELLS(3)},
           {Kernel<Isa>::template rows<1>, Kernel<Isa>::template rows<2>, Kernel<Isa>::template rows<3>}};
 }

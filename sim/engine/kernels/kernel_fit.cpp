@@ -95,6 +95,43 @@ bool fits_slim(const NeuronPlan& plan) {
   return 31 + plan.ratio_up <= 50;
 }
 
+KernelArgs arguments_of(const NeuronPlan& plan) {
+  const spec::Formats& f = plan.formats;
+  const Normalise how = normalise_of(plan);
+  KernelArgs a{};
+  a.synchronous = plan.schedule == spec::Schedule::synchronous;
+  a.bias_up = -plan.bias_down;
+  a.state_fraction = f.state.fraction_bits();
+  a.one_drive = plan.one_drive;
+  a.one_state = plan.one_state;
+  a.at_one = plan.least_at_one;
+  a.at_minus_one = plan.most_at_minus_one;
+  if (how == Normalise::scale) a.drive = shift_rounding(plan.scaled_down, f.drive.rounding);
+  if (how == Normalise::multiply || how == Normalise::step_multiply || how == Normalise::ahead_multiply)
+    a.drive = shift_rounding(plan.multiplier_places, f.drive.rounding);
+  if (divides(how)) a.division = kernel_division(plan.ratio_up, f.drive.rounding);
+  a.state_rounding = shift_rounding(f.drive.fraction_bits(), f.state.rounding);
+  a.link = shift_rounding(plan.link_down, f.link.rounding);
+  a.step_up = std::max(-plan.step_down, 0);
+  a.step = shift_rounding(std::max(plan.step_down, 0), f.state.rounding);
+  a.gained = shift_rounding(spec::momentum_down, f.state.rounding);
+  a.beyond_up = f.drive.fraction_bits() + 2;
+  a.most_drive = plan.most_drive;
+  a.gain = plan.gain;
+  if (fits_slim(plan)) a.slim = slim_quotient(plan), a.slim_blocks = slim_blocks(plan);
+  a.once.half = shift_rounding(32, f.drive.rounding).add;
+  return a;
+}
+
+std::size_t slim_blocks(const NeuronPlan& plan) {
+  const std::size_t changes = (std::size_t{1} << (30 - plan.formats.state.fraction_bits())) - 1;
+  return std::max<std::size_t>(1, changes / static_cast<std::size_t>(plan.neurons_per_cell));
+}
+
+bool fits_brief(const NeuronPlan& plan) {
+  return plan.normaliser != spec::Normaliser::reciprocal || plan.step_down <= 0;
+}
+
 KernelQuotient slim_quotient(const NeuronPlan& plan) {
   const KernelDivision division = kernel_division(plan.ratio_up, plan.formats.drive.rounding);
   return {std::ldexp(1.0, plan.ratio_up), division.to_dividend, division.to_quotient};

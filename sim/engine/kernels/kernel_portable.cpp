@@ -205,6 +205,16 @@ struct Portable {
       return sum.at[l] + half(x, 0) * half(y, 0) + half(x, 1) * half(y, 1);
     });
   }
+  /// sum + sign(s) x.
+  static Words add_along(const Words& sum, const Words& x, const Words& s) {
+    return each_word([&](int l) { return sum.at[l] + (s.at[l] > 0 ? x.at[l] : s.at[l] < 0 ? -x.at[l] : 0); });
+  }
+  /// (s b + add) 2^-32, rounded down.
+  static Words high_products(const Words& s, const std::int32_t* b, const Longs& add) {
+    return each_word([&](int l) {
+      return static_cast<std::int32_t>((std::int64_t{s.at[l]} * b[l] + add.at[l / 2]) >> 32);
+    });
+  }
   static Words add_magnitudes(const Words& sum, const Words& a) {
     return each_word([&](int l) {
       const std::int32_t x = half(static_cast<std::uint32_t>(a.at[l]), 0),
@@ -222,6 +232,8 @@ struct Portable {
     return each_word(
         [&](int l) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.at[l]) << 16); });
   }
+  /// The low half in both.
+  static Words twice(const Words& a) { return halves(a, up_16(a)); }
 
   /// A word that another thread may write at the same time.
   static std::int32_t link(const std::uint32_t* at) {
@@ -244,6 +256,6 @@ struct Portable {
 
 } // namespace
 
-const KernelSet portable_kernels = kernels_of<Portable>("portable");
+const KernelSet portable_kernels = kernels_of<Portable>("portable", nullptr);
 
 } // namespace hopmesh::engine

@@ -17,9 +17,10 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
   struct Slim {
     const KernelArgs& args;
     Words none, step_add, gained_add, low_bits, m, link_add, one, minus_one, at_one, at_minus_one;
-    Words largest, least_sum, largest_sum, least_drive, largest_drive, moving, along, along_high;
+    Words largest, least_sum, largest_sum, least_drive, largest_drive, moving, along, most_u, least_u;
+    Longs half;
     Doubles scale, to_dividend, to_quotient, most_drive, fewest_drive;
-    typename Isa::Count bias_up, step_up, step_down, link_places, gain_places;
+    typename Isa::Count step_up, step_down, link_places, gain_places;
 
     [[gnu::always_inline]] explicit Slim(const KernelArgs& a)
         : args(a), none(Isa::no_words()), step_add(Isa::all_words(a.step.add)),
@@ -28,23 +29,22 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
           one(Isa::all_words(a.one_state)), minus_one(Isa::all_words(-a.one_state)),
           at_one(Isa::all_words(a.at_one)), at_minus_one(Isa::all_words(a.at_minus_one)), largest(none),
           least_sum(none), largest_sum(none), least_drive(none), largest_drive(none), moving(none),
-          along(none), along_high(none), scale(Isa::all_doubles(a.slim.scale)),
+          along(none), most_u(Isa::all_words(a.most_drive)), least_u(Isa::all_words(-a.most_drive)),
+          half(Isa::all(a.once.half)), scale(Isa::all_doubles(a.slim.scale)),
           to_dividend(Isa::all_doubles(a.slim.to_dividend)),
           to_quotient(Isa::all_doubles(a.slim.to_quotient)),
           most_drive(Isa::all_doubles(static_cast<double>(a.most_drive))),
-          fewest_drive(Isa::all_doubles(-static_cast<double>(a.most_drive))), bias_up(Isa::count(a.bias_up)),
-          step_up(Isa::count(a.step_up)), step_down(Isa::count(a.step.places)),
-          link_places(Isa::count(a.link.places)), gain_places(Isa::count(slim_places)) {}
+          fewest_drive(Isa::all_doubles(-static_cast<double>(a.most_drive))), step_up(Isa::count(a.step_up)),
+          step_down(Isa::count(a.step.places)), link_places(Isa::count(a.link.places)),
+          gain_places(Isa::count(slim_places)) {}
 
-    // Sums that began at zero: at most slim_blocks blocks, so they fit.
+    // Sums that began at zero: of few enough blocks, so they fit.
     void store_extremes(LaneExtremes& s) const {
       Isa::store_words(s.largest_change, Isa::max_unsigned(Isa::load_words(s.largest_change), largest));
       least(s.least_sum, least_sum), most(s.largest_sum, largest_sum);
       least(s.least_drive, least_drive), most(s.largest_drive, largest_drive);
       most(s.largest_moving, moving);
-      const Longs low = Isa::add(Isa::low(along), Isa::high(along));
-      const Longs high = Isa::add(Isa::low(along_high), Isa::high(along_high));
-      Isa::store(s.along, Isa::add(Isa::load(s.along), Isa::add(low, Isa::shift_up(high, gain_places))));
+      Isa::store(s.along, Isa::add(Isa::load(s.along), Isa::add(Isa::low(along), Isa::high(along))));
     }
     static void least(std::int64_t* all, Words x) {
       Isa::store(all, Isa::min(Isa::load(all), Isa::min(Isa::low(x), Isa::high(x))));
@@ -79,27 +79,34 @@ template <typename Isa> struct KernelSlim : KernelHeld<Isa> {
     c.moving = Isa::max_words(c.moving, Isa::max_words(up, down));
   }
 
-  /// Sixteen neurons, and their links.
-  template <Normalise how, bool by_sum>
-  [[gnu::always_inline]] static Words publish_slim(const Sum<Isa, false>& sum, std::size_t at, Slim& c) {
+  /// u of sixteen neurons. `brief`: one product of 32 bits each, whose upper half is u.
+  template <Normalise how, bool brief>
+  [[gnu::always_inline]] static Words drive_of_slim(Words s, std::size_t at, const Slim& c) {
     const KernelArgs& a = c.args;
-    const Words s = Isa::add_words(sum.sum, Isa::shift_words_up(Isa::load_words(a.bias + at), c.bias_up));
+    if constexpr (brief)
+      return words_within(Isa::high_products(s, a.once.multiplier + at, c.half), c.least_u, c.most_u);
+    else
+      return Isa::floor_words(quotient<how>(Isa::low_doubles(s), a.multiplier + at, c),
+                              quotient<how>(Isa::high_doubles(s), a.multiplier + at + 8, c));
+  }
+
+  /// Sixteen neurons, and their links. `brief`, where u is no finer than the state.
+  template <Normalise how, bool by_sum, bool brief>
+  [[gnu::always_inline]] static Words publish_slim(Words s, std::size_t at, Slim& c) {
+    const KernelArgs& a = c.args;
     const Words Y = Isa::load_words(a.ahead + at);
     if constexpr (by_sum) note_moving(s, Y, c);
     c.least_sum = Isa::min_words(c.least_sum, s), c.largest_sum = Isa::max_words(c.largest_sum, s);
-    const Words u = Isa::floor_words(quotient<how>(Isa::low_doubles(s), a.multiplier + at, c),
-                                     quotient<how>(Isa::high_doubles(s), a.multiplier + at + 8, c));
+    const Words u = drive_of_slim<how, brief>(s, at, c);
     c.least_drive = Isa::min_words(c.least_drive, u), c.largest_drive = Isa::max_words(c.largest_drive, u);
-    const Words step =
-        Isa::shift_words_down(Isa::add_words(Isa::shift_words_up(u, c.step_up), c.step_add), c.step_down);
+    Words step = Isa::shift_words_up(u, c.step_up);
+    if constexpr (!brief) step = Isa::shift_words_down(Isa::add_words(step, c.step_add), c.step_down);
     const Words now = words_within(Isa::add_words(Y, step), c.minus_one, c.one);
     const Words change = Isa::sub_words(now, Isa::load_words(a.state + at));
     Isa::store_words(a.state + at, now);
     c.largest = Isa::max_unsigned(c.largest, Isa::word_sizes(change));
+    c.along = Isa::add_along(c.along, change, s);
     const Words low = Isa::words_and(change, c.low_bits), high = Isa::shift_words_down(change, c.gain_places);
-    const Words sign =
-        Isa::words_and(words_within(s, Isa::all_words(-1), Isa::all_words(1)), Isa::all_words(0xFFFF));
-    c.along = Isa::add_pairs(c.along, low, sign), c.along_high = Isa::add_pairs(c.along_high, high, sign);
     const Words ahead = words_within(Isa::add_words(now, gained(low, high, c)), c.minus_one, c.one);
     Isa::store_words(a.ahead + at, ahead);
     return Isa::shift_words_down(Isa::add_words(ahead, c.link_add), c.link_places);

@@ -25,6 +25,11 @@ std::int64_t moved_up(const NeuronPlan& plan, std::uint64_t norm) {
   return r << (plan.norm_bits - bit_length(norm));
 }
 
+// Places of a reciprocal behind the point that makes u of s.
+int places_behind(const NeuronPlan& plan, std::uint64_t norm) {
+  return bit_length(norm) + plan.reciprocal_bits - 2 - plan.ratio_up;
+}
+
 } // namespace
 
 RowInverse modified_inverse(const NeuronPlan& plan, std::uint64_t norm) {
@@ -44,8 +49,18 @@ RowInverse held_inverse(const NeuronPlan& plan, std::uint64_t norm) {
 RowInverse slim_inverse(const NeuronPlan& plan, std::uint64_t norm) {
   if (!multiplies(plan)) return {norm > 0 ? bits_of(1.0 / static_cast<double>(norm)) : 0, 0};
   if (norm == 0) return {bits_of(2.0 * static_cast<double>(plan.most_drive)), 0};
-  const int places = bit_length(norm) + plan.reciprocal_bits - 2 - plan.ratio_up;
-  return {bits_of(std::ldexp(static_cast<double>(reciprocal(norm, plan.reciprocal_bits)), -places)), 0};
+  const double r = static_cast<double>(reciprocal(norm, plan.reciprocal_bits));
+  return {bits_of(std::ldexp(r, -places_behind(plan, norm))), 0};
+}
+
+// s without a divisor is at its limit at once, which no such product says.
+std::int32_t brief_inverse(const NeuronPlan& plan, std::uint64_t norm) {
+  if (norm == 0) return 0;
+  const std::int64_t r = reciprocal(norm, plan.reciprocal_bits);
+  const int up = 32 - places_behind(plan, norm);
+  const bool fits = up >= 0 ? bit_length(static_cast<std::uint64_t>(r)) + up <= 31
+                            : up > -32 && r % (std::int64_t{1} << -up) == 0;
+  return static_cast<std::int32_t>(!fits ? -1 : up >= 0 ? r << up : r >> -up);
 }
 
 } // namespace hopmesh::engine

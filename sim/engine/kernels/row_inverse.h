@@ -16,5 +16,8 @@ RowInverse modified_inverse(const NeuronPlan& plan, std::uint64_t norm);
 RowInverse held_inverse(const NeuronPlan& plan, std::uint64_t norm);
 /// Of slim kernels: always a double. Behind a divider, s must have a divisor.
 RowInverse slim_inverse(const NeuronPlan& plan, std::uint64_t norm);
+/// Of kernels that take u of s times it, 32 places lower, where a reciprocal multiplies; -1: it needs more
+/// bits.
+std::int32_t brief_inverse(const NeuronPlan& plan, std::uint64_t norm);
 
 } // namespace hopmesh::engine

@@ -64,10 +64,20 @@ std::vector<std::optional<double>> at_times(const Twin& twin, const Budget& budg
   return at;
 }
 
+/// A scene whose steps are made in whole numbers, by doubles; null for any other.
+std::unique_ptr<levels::Prepared> by_doubles(const levels::Prepared& p) {
+  if (p.inputs.scene.host.arithmetic != scene::Arithmetic::fixed) return nullptr;
+  auto other = std::make_unique<levels::Prepared>(levels::Prepared{p.inputs, nullptr});
+  other->inputs.scene.host.arithmetic = scene::Arithmetic::doubles;
+  other->mesh = std::make_unique<levels::BuiltMesh>(other->inputs.scene);
+  return other;
+}
+
 /// False where the user stopped it.
 bool fly_all(const levels::Prepared& p, Budget& budget) {
   const scene::Scene& scene = p.inputs.scene;
-  const levels::ReadyLevel array = levels::make_ready(levels::default_level(), p);
+  const std::unique_ptr<levels::Prepared> doubles = by_doubles(p);
+  const levels::ReadyLevel array = levels::make_ready(levels::default_level(), doubles ? *doubles : p);
   SweepWatch sweeps(*array.array);
   levels::ReferenceMover same(scene, *p.mesh, p.inputs.array), rest(scene, *p.mesh, p.inputs.array);
   std::optional<levels::ExactStep> exact;
@@ -77,6 +87,11 @@ bool fly_all(const levels::Prepared& p, Budget& budget) {
                         run::StepSink* beside = nullptr) {
     return fly(mover, {motion, mends, {}}, scene.motion, budget, beside);
   };
+  if (doubles) {
+    const levels::ReadyLevel whole = levels::make_ready(levels::default_level(), p);
+    if (!link(*whole.mover, "array " + p.inputs.array.name + ", its host in whole numbers", "host"))
+      return false;
+  }
   if (!link(*array.mover, "array " + p.inputs.array.name, "rounding", &sweeps)) return false;
   same.answer_after(sweeps.of);
   twin.answer_after(sweeps.of);

@@ -18,7 +18,15 @@ const std::string row = "two-nodes --set mesh.grid.columns=7 --set force.wind=[0
 
 class CliResumeLevel : public CliResume, public ::testing::WithParamInterface<std::string> {
  protected:
-  std::string level() const { return " --level " + GetParam(); }
+  void SetUp() override {
+    if (!levels::level_named(GetParam(), "").make_ready) return;
+    if (run_shell("command -v verilator > /dev/null").exit_code != 0) GTEST_SKIP() << "no verilator here";
+    around.environment.emplace_back("HOPMESH_CACHE", HOPMESH_RTL_CACHE);
+    around.patience_seconds = 280;
+    ASSERT_EQ(hopmesh("run two-nodes --steps 1 --out made" + level()).exit_code, 0);
+  }
+
+  std::string level() const { return " --level " + GetParam() + array_for(GetParam()); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, CliResumeLevel, ::testing::ValuesIn(levels::level_names()), name_of_level);

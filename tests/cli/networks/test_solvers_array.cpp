@@ -14,9 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int sweeps = 400, side = 6, outputs = 3 * side * (side - 1);
+constexpr int all_sweeps = 400, side = 6, outputs = 3 * side * (side - 1);
 // Step 0 of so short a time step starts from zero at every level: its first scale fits.
-const std::string scene = fmt::format(
+const std::string small_banner = fmt::format(
     "banner --set mesh.grid.rows={0} --set mesh.grid.columns={0} --set motion.time_step=0.004 ", side);
 
 /// Of a 6 x 6 grid whose first column is pinned: where an output of the array stands among all nodes'.
@@ -28,7 +28,7 @@ int place(int output) {
 class CliSolversArray : public Cli {
  protected:
   void SetUp() override {
-    good("network " + scene + "--step 0 --out n");
+    good("network " + small_banner + "--step 0 --out n");
     const Market weights = read_market(at("n/W.mtx")), biases = read_market(at("n/bias.mtx"));
     W.resize(outputs, outputs), I.resize(outputs);
     for (int i = 0; i < outputs; ++i) {
@@ -46,7 +46,8 @@ class CliSolversArray : public Cli {
 
   /// After each sweep of the engine, from its raw outputs.
   std::vector<double> gaps_of_the_engine() const {
-    good(fmt::format("vectors {} --set relax.threshold=0 --step 0 --sweeps {} --out v.txt", scene, sweeps));
+    good(fmt::format("vectors {} --set relax.threshold=0 --step 0 --sweeps {} --out v.txt", small_banner,
+                     all_sweeps));
     std::vector<std::vector<int>> phases;
     VectorXd V = VectorXd::Zero(outputs);
     std::vector<double> gaps;
@@ -84,7 +85,7 @@ class CliSolversArray : public Cli {
 
   /// The row that says what the array did.
   std::map<std::string, std::string> row(const std::string& more) const {
-    good("solvers " + scene + "--step 0 " + more + " --out s");
+    good("solvers " + small_banner + "--step 0 " + more + " --out s");
     const Table t = read_table(at("s/solvers.csv"));
     EXPECT_EQ(t.column.at("method").at(0), "array");
     std::map<std::string, std::string> cells;
@@ -104,8 +105,8 @@ std::string first_within(const std::vector<double>& gaps, double wanted) {
 
 TEST_F(CliSolversArray, IsARunOfTheEngine) {
   const auto gaps = gaps_of_the_engine();
-  ASSERT_EQ(gaps.size(), static_cast<std::size_t>(sweeps));
-  auto cells = row(fmt::format("--gap 1e-1,1e-3,1e-5 --max-sweeps {}", sweeps));
+  ASSERT_EQ(gaps.size(), static_cast<std::size_t>(all_sweeps));
+  auto cells = row(fmt::format("--gap 1e-1,1e-3,1e-5 --max-sweeps {}", all_sweeps));
   for (const auto& [name, wanted] :
        {std::pair{"sweeps@0.1", 1e-1}, {"sweeps@0.001", 1e-3}, {"sweeps@1e-05", 1e-5}})
     EXPECT_EQ(cells[name], first_within(gaps, wanted)) << name;
@@ -130,7 +131,7 @@ TEST_F(CliSolversArray, FewerBitsStallHigher) {
   const double ten = least("fixed<10,2,SC_TRN_ZERO,SC_SAT>"),
                twenty = least("fixed<20,2,SC_TRN_ZERO,SC_SAT>");
   EXPECT_GT(ten, 30 * twenty);
-  const std::string out = good("solvers " + scene + "--step 0").out;
+  const std::string out = good("solvers " + small_banner + "--step 0").out;
   EXPECT_THAT(out, ::testing::ContainsRegex("array: lowest after [0-9]+ of [0-9]+ sweeps, at a gap of "));
   EXPECT_THAT(out, ::testing::HasSubstr("last places of 2.4e-07 at most"));
   EXPECT_THAT(out, ::testing::HasSubstr("that of the weights as loaded one of "));
