@@ -127,6 +127,9 @@ TEST_F(CliRtl, TheCoreFileNamesEveryModule) {
 TEST_F(CliRtl, WhatIsNotCoveredIsRefusedInALine) {
   refused("rtl net --out design", "array.elements: found 0, expected 1 to 256: RTL is of folded arrays");
   const std::string folded = "rtl net --array folded --out design --set ";
+  refused(folded + "array.elements=257", "array.elements: found 257, expected at most 256");
+  refused(folded + "array.stages=each --set array.elements=33",
+          "array.elements: found 33, expected at most 32");
   refused(folded + "array.lanes=2", "array.lanes: found 2");
   refused(folded + "formats.accumulator=fixed<20,12>", "formats.accumulator");
   refused(folded + "array.bus_bits=64", "array.bus_bits: found 64");
@@ -137,7 +140,8 @@ TEST_F(CliRtl, WhatIsNotCoveredIsRefusedInALine) {
 
 TEST_F(CliRtl, WithoutVerilatorTheLevelSaysSo) {
   around.environment = {{"HOPMESH_CACHE", at("none").string()}, {"PATH", at("nothing").string()}};
-  refused("run net --array folded --level rtl --steps 1 --out run", "level rtl: found no program verilator");
+  refused("run net --array folded --set array.elements=1 --level rtl --steps 1 --out run",
+          "level rtl: found no program verilator");
 }
 
 TEST_F(CliRtl, TheLevelIsTheArray) {
