@@ -92,8 +92,8 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"core_bus", "core_memory"},
                                             {"core_main"}};
 
-// Written by CMake when the build is configured.
-const std::set<std::string> generated = {"version.h", "place.h"};
+// Written by CMake when the build is configured, and by Verilator when a model is made.
+const std::set<std::string> generated = {"version.h", "place.h", "Vhm.h", "Vhm___024root.h", "verilated.h"};
 
 std::string room_of(const std::string& path) {
   static const std::regex shape("(firmware|(?:rtl_model|sim)/[^/]+|tests)/.*");
