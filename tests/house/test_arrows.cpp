@@ -50,6 +50,7 @@ const std::map<std::string, Rooms> allowed = {
 const std::map<std::string, Rooms> machines = {
     {"sim/engine/generic", {}},
     {"sim/engine/kernels", {}},
+    {"sim/engine/kernels/sets", {"sim/engine/kernels"}},
     {"sim/engine/clocked", {"sim/engine/generic"}},
 };
 

@@ -98,7 +98,6 @@ class FastCore : public SweepCore {
   void show(std::size_t slot, std::size_t p, std::int32_t code);
   void set_arguments();
   void point();
-  std::uint64_t divisor(std::size_t block, std::size_t row, std::uint32_t sum) const;
 
   const NeuronPlan& plan_;
   const Layout& layout_;
@@ -208,16 +207,6 @@ void FastCore::fire(std::size_t first, std::size_t last, const SweepOrder& order
   fire_(args, first, last, record.lanes);
 }
 
-/// What divides s of a row of the block, [p][lane], whose |w| add up to `sum`.
-std::uint64_t FastCore::divisor(std::size_t block, std::size_t row, std::uint32_t sum) const {
-  const std::size_t p = row / L;
-  if (plan_.output == spec::Output::projected)
-    return static_cast<std::uint64_t>(std::abs(weight(block * L + row % L, p, p))) << plan_.weight_up;
-  const std::int64_t bias = plan_.hold > 0 ? 0 : bias_[block * per_cell_ * L + row];
-  return (std::uint64_t{sum} << plan_.weight_up) +
-         (static_cast<std::uint64_t>(std::abs(bias)) << plan_.bias_up);
-}
-
 void FastCore::put_inverse(std::size_t at, std::uint64_t norm) {
   if (way_ == Way::any) {
     const RowInverse inverse = plan_.hold > 0 ? held_inverse(plan_, norm) : modified_inverse(plan_, norm);
@@ -246,7 +235,9 @@ void FastCore::prepare(std::size_t first, std::size_t last) {
       largest = std::max<std::uint64_t>(largest, sums[k]);
       sum = std::max(sum, sums[k] * static_cast<std::uint64_t>(plan_.one_link) + (bias << args_.bias_up));
       if (!normalises) continue;
-      const std::uint64_t norm = divisor(b, k, sums[k]);
+      const std::int32_t own =
+          plan_.output == spec::Output::projected ? weight(b * L + k % L, k / L, k / L) : 0;
+      const std::uint64_t norm = row_divisor(plan_, own, sums[k], bias_[at]);
       if (norm == 0 && bias != 0) lonely_ = true;
       put_inverse(at, norm);
     }

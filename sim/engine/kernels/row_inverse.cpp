@@ -3,6 +3,7 @@
 #include "sim/engine/division.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 namespace hopmesh::engine {
@@ -31,6 +32,14 @@ int places_behind(const NeuronPlan& plan, std::uint64_t norm) {
 }
 
 } // namespace
+
+std::uint64_t row_divisor(const NeuronPlan& plan, std::int32_t own, std::uint32_t sum, std::int32_t bias) {
+  if (plan.output == spec::Output::projected)
+    return static_cast<std::uint64_t>(std::abs(own)) << plan.weight_up;
+  const std::int64_t added = plan.hold > 0 ? 0 : bias;
+  return (std::uint64_t{sum} << plan.weight_up) +
+         (static_cast<std::uint64_t>(std::abs(added)) << plan.bias_up);
+}
 
 RowInverse modified_inverse(const NeuronPlan& plan, std::uint64_t norm) {
   if (norm == 0) return {};

@@ -10,6 +10,9 @@ struct RowInverse {
   std::int64_t most_sum = 0;   ///< s is held within it; of held inverses
 };
 
+/// What divides s of a row, whose |w| add up to `sum`; `own`: its weight from itself, of projected outputs.
+std::uint64_t row_divisor(const NeuronPlan& plan, std::int32_t own, std::uint32_t sum, std::int32_t bias);
+
 /// Of modified outputs. An empty row has none, and u = 0.
 RowInverse modified_inverse(const NeuronPlan& plan, std::uint64_t norm);
 /// Of projected and momentum. Where s has no divisor, it is at its limit as soon as it is not zero.

@@ -2,7 +2,7 @@
 // they have.
 #pragma once
 
-#include "sim/engine/kernels/avx2_words.h"
+#include "sim/engine/kernels/sets/avx2_words.h"
 
 namespace hopmesh::engine {
 namespace {

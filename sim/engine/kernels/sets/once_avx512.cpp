@@ -1,6 +1,6 @@
 // Kernels for weights kept once, for processors with AVX-512.
-#include "sim/engine/kernels/avx512.h"
 #include "sim/engine/kernels/kernel_pack.h"
+#include "sim/engine/kernels/sets/avx512.h"
 
 namespace hopmesh::engine {
 

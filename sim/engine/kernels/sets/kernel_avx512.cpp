@@ -1,6 +1,6 @@
 // Kernels for processors with AVX-512.
-#include "sim/engine/kernels/avx512.h"
 #include "sim/engine/kernels/kernel_ahead.h"
+#include "sim/engine/kernels/sets/avx512.h"
 
 namespace hopmesh::engine {
 

@@ -1,6 +1,6 @@
 // Kernels for processors with AVX2.
-#include "sim/engine/kernels/avx2.h"
 #include "sim/engine/kernels/kernel_ahead.h"
+#include "sim/engine/kernels/sets/avx2.h"
 
 namespace hopmesh::engine {
 
