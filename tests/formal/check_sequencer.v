@@ -72,17 +72,16 @@ module check_sequencer #(
       .sweeps(sweeps),
       .cycles(cycles)
   );
-  reg ended = 0;
-  always @(posedge clock) ended <= ended | done;
+  // What went wrong on the way is asked at the end, in a single query.
+  reg ended = 0, bad = 0;
+  wire right_end = !ended && cycles == {57'd0, at} && sweeps <= 2 && {25'd0, at} == 1 + PREPARE + sweeps * SWEEP;
+  always @(posedge clock) begin
+    ended <= ended | done;
+    bad <= bad | (done & ~right_end) | (ended & running);
+  end
   always @* begin
     assume (most_sweeps <= 2);
     // The run begins in cycle 1 of this clock; its last cycle has number MOST of them.
-    if (at > MOST) assert (ended);
-    if (done) begin
-      assert (!ended);
-      assert (cycles == at && at == 1 + PREPARE + sweeps * SWEEP);
-      assert (sweeps <= 2);
-    end
-    if (ended) assert (!running);
+    if (at == MOST + 2) assert (ended && !bad);
   end
 endmodule

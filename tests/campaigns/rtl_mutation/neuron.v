@@ -30,8 +30,10 @@ module neuron (
 );
   `include "neuron_layout.vh"
   localparam HAS_NORM = (OUTPUT != 1) && (NORMALISER != 0);
-  localparam SHIFT_BITS = $clog2(NORM_WIDTH + 1);
-  localparam KEPT_BITS = (NORMALISER == 1) ? SHIFT_BITS + RECIPROCAL_BITS : NORM_WIDTH;
+  localparam NORM_FRACTION = (WEIGHT_FRACTION > BIAS_FRACTION) ? WEIGHT_FRACTION : BIAS_FRACTION;
+  localparam NORM_BITS = ACCUMULATOR_BITS - 1 - (ACCUMULATOR_FRACTION - NORM_FRACTION);
+  localparam SHIFT_BITS = $clog2(NORM_BITS + 1);
+  localparam KEPT_BITS = (NORMALISER == 1) ? SHIFT_BITS + RECIPROCAL_BITS : NORM_BITS;
   input wire clock, add, clear, norms, take, take_norm;
   input wire signed [WEIGHT_BITS-1:0] weight_in;
   input wire signed [LINK_BITS-1:0] link_in;
@@ -86,7 +88,7 @@ module neuron (
       .LINK_MODE(LINK_ROUNDING),
       .MANTISSA(RECIPROCAL_BITS),
       .RELAXATION(RELAXATION),
-      .NORM_BITS(NORM_WIDTH),
+      .NORM_BITS(NORM_BITS),
       .SHIFT_BITS(SHIFT_BITS),
       .KEPT_BITS(KEPT_BITS)
   ) stage (

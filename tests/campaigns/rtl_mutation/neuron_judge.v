@@ -4,8 +4,10 @@ module neuron_judge;
   `include "neuron_layout.vh"
   `include "neuron_memories.vh"
   localparam HAS_NORM = (OUTPUT != 1) && (NORMALISER != 0);
-  localparam SHIFT_BITS = $clog2(NORM_WIDTH + 1);
-  localparam KEPT_BITS = (NORMALISER == 1) ? SHIFT_BITS + RECIPROCAL_BITS : NORM_WIDTH;
+  localparam NORM_FRACTION = (WEIGHT_FRACTION > BIAS_FRACTION) ? WEIGHT_FRACTION : BIAS_FRACTION;
+  localparam NORM_BITS = ACCUMULATOR_BITS - 1 - (ACCUMULATOR_FRACTION - NORM_FRACTION);
+  localparam SHIFT_BITS = $clog2(NORM_BITS + 1);
+  localparam KEPT_BITS = (NORMALISER == 1) ? SHIFT_BITS + RECIPROCAL_BITS : NORM_BITS;
   // docs/hardware/cycles.md
   localparam NORMALISE = !HAS_NORM ? 1 : (NORMALISER == 1) ? 2 : DRIVE_FRACTION + 2 + ((OUTPUT == 2) ? 1 : 0);
   localparam STAGE = NORMALISE + ((OUTPUT == 0 || OUTPUT == 3) ? 2 : 1) + PIPELINE;
