@@ -15,7 +15,8 @@ namespace {
 struct Shape {
   std::uint64_t width, depth;
 };
-constexpr std::array<Shape, 5> ecp5_shapes{{{36, 512}, {18, 1024}, {9, 2048}, {4, 4096}, {2, 8192}}};
+constexpr std::array<Shape, 6> ecp5_shapes{
+    {{36, 512}, {18, 1024}, {9, 2048}, {4, 4096}, {2, 8192}, {1, 16384}}};
 constexpr std::array<Shape, 4> ice40_shapes{{{16, 256}, {8, 512}, {4, 1024}, {2, 2048}}};
 constexpr std::uint64_t least_ecp5 = 512; ///< bits: below, an FPGA takes LUTs
 
