@@ -1,6 +1,7 @@
 // The cost model: what it learns from, how it learns, and how far off it is for arrays that it has not seen.
 #include "sim/machine/cost/part_synthesis.h"
 #include "sim/machine/cost/whole_cost.h"
+#include "sim/machine/rtl/rtl_tables.h"
 
 #include "rtl_model/spec/presets.h"
 #include "sim/cosim/random_job.h"
@@ -88,6 +89,22 @@ TEST_F(Cost, MemoriesTakeTheShapeThatNeedsTheFewestBlocks) {
   EXPECT_EQ(deep.bits, 0);
   EXPECT_EQ(deep.table_bits, 3 * 32768);
   EXPECT_EQ(memory_blocks({{"a", 1, 8, 16, false}}).ice40_blocks, 0) << "so few bits take LUTs";
+}
+
+TEST_F(Cost, TablesAreThoseOfTheRtl) {
+  for (const spec::Stages stages : {spec::Stages::one, spec::Stages::each}) {
+    fold(3, stages);
+    std::vector<MemoryShape> tables = memories_of(array, square);
+    tables.erase(
+        std::remove_if(tables.begin(), tables.end(), [](const MemoryShape& m) { return !m.read_only; }),
+        tables.end());
+    const std::vector<BitTable> made = rtl_tables(array, square, rtl_room(array, square));
+    ASSERT_EQ(tables.size(), made.size());
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      EXPECT_EQ(tables[k].width, static_cast<std::uint64_t>(made[k].width)) << made[k].name;
+      EXPECT_EQ(tables[k].depth, made[k].rows) << made[k].name;
+    }
+  }
 }
 
 TEST_F(Cost, PointsAreReadAsTheyAreWritten) {

@@ -1,7 +1,7 @@
 #include "sim/machine/cost/memory_blocks.h"
 
 #include "sim/machine/cost/cost_model.h"
-#include "sim/machine/rtl/rtl_tables.h"
+#include "sim/machine/rtl/rtl_parameters.h"
 #include "sim/machine/silicon.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 struct Shape {
   std::uint64_t width, depth;
 };
-constexpr std::array<Shape, 5> ecp5_shapes{{{36, 512}, {18, 1024}, {9, 2048}, {4, 4096}, {2, 8192}}};
+constexpr std::array<Shape, 6> ecp5_shapes{
+    {{36, 512}, {18, 1024}, {9, 2048}, {4, 4096}, {2, 8192}, {1, 16384}}};
 constexpr std::array<Shape, 4> ice40_shapes{{{16, 256}, {8, 512}, {4, 1024}, {2, 2048}}};
 constexpr std::uint64_t least_ecp5 = 512; ///< bits: below, an FPGA takes LUTs
 
@@ -33,12 +34,22 @@ std::uint64_t wide(const spec::NumberFormat& format) {
   return static_cast<std::uint64_t>(format.width);
 }
 
-/// What depends on the network and never changes; an array without a fold has wires in its place.
-void add_tables(const spec::ArraySpec& array, const spec::Topology& topology, std::vector<MemoryShape>& all) {
+/// What depends on the network and never changes, as rtl_tables makes them; an array without a fold has wires
+/// in their place.
+void add_tables(const spec::ArraySpec& array, const Parameters& p, std::vector<MemoryShape>& all) {
   if (!spec::is_folded(array)) return;
-  for (const BitTable& table : rtl_tables(array, topology, rtl_room(array, topology)))
-    all.push_back({table.name == "LINES" ? "lines" : "table", 1, static_cast<std::uint64_t>(table.width),
-                   table.rows, true});
+  const auto room = [&p](const char* name) { return static_cast<std::uint64_t>(p.at(name)); };
+  const auto bits = [](std::uint64_t many) { return static_cast<std::uint64_t>(index_bits(many)); };
+  const std::uint64_t elements = room("ELEMENTS"), place = bits(room("PLACES"));
+  const std::uint64_t memory = spec::shares_stage(array) || elements == 1 ? 0 : bits(elements);
+  const std::uint64_t own = array.output == spec::Output::projected ? 1 : 0;
+  const std::uint64_t tap = (place + memory + 1 + own) * static_cast<std::uint64_t>(array.lanes);
+  all.push_back({"lines", 1, 3 + elements * tap, room("LINES"), true});
+  all.push_back({"table", 1, bits(elements + 1) + 2, room("ROUNDS"), true});
+  all.push_back({"table", 1, bits(room("LINES")) + bits(elements), room("WEIGHTS"), true});
+  all.push_back({"table", 1, place + bits(elements), room("NEURONS"), true});
+  all.push_back({"table", 1, bits(room("LINKS") + 1), room("CELLS") + 1, true});
+  all.push_back({"table", 1, bits(room("CELLS") + 1), room("LINKS"), true});
 }
 
 } // namespace
@@ -64,7 +75,7 @@ std::vector<MemoryShape> memories_of(const spec::ArraySpec& array, const spec::T
     all.push_back({"links", elements * stages, wide(f.link) * parts.points, places * parts.link_banks});
   if (spec::has_momentum(array))
     all.push_back({"table of m", 1, 16, static_cast<std::uint64_t>(array.momentum_entries)});
-  add_tables(array, topology, all);
+  add_tables(array, p, all);
   return all;
 }
 
