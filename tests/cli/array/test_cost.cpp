@@ -30,9 +30,9 @@ TEST_F(CliCost, AsJson) {
 
 TEST_F(CliCost, MoreSweepsTakeMoreEnergy) {
   const auto energy = [&](const std::string& sweeps) {
-    for (const auto& f :
-         nlohmann::json::parse(good("cost banner --array folded --model --json --sweeps " + sweeps).out)
-             .at("figures"))
+    const auto json =
+        nlohmann::json::parse(good("cost banner --array folded --model --json --sweeps " + sweeps).out);
+    for (const auto& f : json.at("figures"))
       if (f.at("name").get<std::string>().rfind("energy by the published table", 0) == 0)
         return f.at("value").get<double>();
     return 0.0;
