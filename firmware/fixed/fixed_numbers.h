@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-/* The upper word of a product, rounded down. On a RISC-V core said by its name: compilers make a product of 64 by 64
-   bits of it wherever they have seen a sign. */
+/* The upper word of a product, rounded down. On a RISC-V core said by its name: compilers make a product of
+   64 by 64 bits of it wherever they have seen a sign. */
 static inline int32_t hm_upper(int32_t a, int32_t b) {
 #ifdef __riscv
   int32_t upper;

@@ -112,8 +112,8 @@ void FixedMotion::choose_units() {
   const Scaled of_h = scaled(h);
   plan_.h = of_h.mantissa, plan_.h_exponent = of_h.exponent;
   plan_.most_scale = 27 - plan_.spring_places - plan_.h_exponent;
-  plan_.least_scale =
-      std::max(-2 - plan_.spring_places - plan_.h_exponent, plan_.pull_exponent - HM_FIXED_PULL - plan_.spring_places);
+  plan_.least_scale = std::max(-2 - plan_.spring_places - plan_.h_exponent,
+                               plan_.pull_exponent - HM_FIXED_PULL - plan_.spring_places);
 }
 
 double FixedMotion::unit() const {
