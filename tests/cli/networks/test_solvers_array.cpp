@@ -140,7 +140,7 @@ TEST_F(CliSolversArray, FewerBitsStallHigher) {
 /// Every stage, plain and corrected: seconds are cycles of array and bus at its clock, corrections come to
 /// gaps that no words hold, and what one solve tells is what is measured.
 TEST_F(CliSolversArray, ShowsEveryStageAndWhatIsSureOfIt) {
-  const std::string out = good("solvers " + scene + "--step 0 --gap 1e-3,1e-12 --out s").out;
+  const std::string out = good("solvers " + small_banner + "--step 0 --gap 1e-3,1e-12 --out s").out;
   const Table t = read_table(at("s/solvers.csv"));
   const auto& method = t.column.at("method");
   const auto cell = [&](const std::string& name, const std::string& column) {
@@ -172,10 +172,10 @@ TEST_F(CliSolversArray, ShowsEveryStageAndWhatIsSureOfIt) {
 }
 
 TEST_F(CliSolversArray, AsksAFewWhereTold) {
-  good("solvers " + scene + "--step 0 --only array_momentum,cholesky --out s");
+  good("solvers " + small_banner + "--step 0 --only array_momentum,cholesky --out s");
   EXPECT_EQ(read_table(at("s/solvers.csv")).column.at("method"),
             (std::vector<std::string>{"array_momentum", "array_momentum_corrected", "cholesky"}));
-  refused("solvers " + scene + "--step 0 --only newton",
+  refused("solvers " + small_banner + "--step 0 --only newton",
           "--only: found newton, expected array, array_corrected");
 }
 

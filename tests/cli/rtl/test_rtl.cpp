@@ -35,7 +35,7 @@ class CliRtl : public Cli {
 };
 
 // Nineteen cells: a phase has more neurons than elements, and Icarus is slow.
-const std::string small = "two-nodes --set mesh.grid.columns=5 --set mesh.grid.rows=4";
+const std::string small_design = "two-nodes --set mesh.grid.columns=5 --set mesh.grid.rows=4";
 
 const std::vector<std::string> arrays{
     "--array folded --set array.elements=4",
@@ -50,14 +50,14 @@ const std::vector<std::string> arrays{
 TEST_F(CliRtl, ADesignPassesItsOwnTestInIcarus) {
   NEEDS("iverilog");
   for (const std::string& array : arrays) {
-    good("rtl " + small + " " + array + " --set relax.max_sweeps=4 --out design");
+    good("rtl " + small_design + " " + array + " --set relax.max_sweeps=4 --out design");
     EXPECT_THAT(icarus(), HasSubstr("PASSED")) << array;
   }
 }
 
 TEST_F(CliRtl, AxiAnswersAndRefusesAsItShould) {
   NEEDS("iverilog");
-  good("rtl " + small + " " + arrays[0] + " --steps 0 --out design");
+  good("rtl " + small_design + " " + arrays[0] + " --steps 0 --out design");
   const Finished f = in_design(
       "iverilog -g2012 -Irtl -f hopmesh.f -o axi.vvp test/hopmesh_axi_test.v && timeout 60 vvp -n axi.vvp");
   EXPECT_THAT(f.out, HasSubstr("PASSED"));
@@ -65,7 +65,8 @@ TEST_F(CliRtl, AxiAnswersAndRefusesAsItShould) {
 
 TEST_F(CliRtl, ItsTestFindsAWrongBit) {
   NEEDS("iverilog");
-  good("rtl " + small + " --array folded --set array.elements=4 --set relax.max_sweeps=4 --out design");
+  good("rtl " + small_design +
+       " --array folded --set array.elements=4 --set relax.max_sweeps=4 --out design");
   const auto file = at("design") / "rtl/hm_round.v";
   std::string text = content_of(file);
   const std::string right = "(MODE == RND) ? (beyond | (tie & tie_up))";
@@ -77,7 +78,7 @@ TEST_F(CliRtl, ItsTestFindsAWrongBit) {
 
 TEST_F(CliRtl, ADesignPassesItsOwnTestInVerilator) {
   NEEDS("verilator");
-  good("rtl " + small + " " + arrays[0] + " --set relax.max_sweeps=4 --out design");
+  good("rtl " + small_design + " " + arrays[0] + " --set relax.max_sweeps=4 --out design");
   const Finished f =
       in_design("verilator --binary --timing -Wno-fatal -Irtl -Itest -f hopmesh.f --top-module hopmesh_test "
                 "test/hopmesh_test.v > build.log 2>&1; obj_dir/Vhopmesh_test");
@@ -87,7 +88,7 @@ TEST_F(CliRtl, ADesignPassesItsOwnTestInVerilator) {
 TEST_F(CliRtl, VerilatorHasNothingToSayAboutAnyModule) {
   NEEDS("verilator");
   for (const std::string& array : arrays) {
-    good("rtl " + small + " " + array + " --steps 0 --out design");
+    good("rtl " + small_design + " " + array + " --steps 0 --out design");
     const Finished f =
         in_design("verilator --lint-only -Wall -Irtl -f hopmesh.f --top-module hopmesh_axi_top");
     EXPECT_EQ(f.out, "") << array;
@@ -96,7 +97,7 @@ TEST_F(CliRtl, VerilatorHasNothingToSayAboutAnyModule) {
 
 TEST_F(CliRtl, YosysReadsEveryModule) {
   NEEDS("yosys");
-  good("rtl " + small + " " + arrays[0] + " --steps 0 --out design");
+  good("rtl " + small_design + " " + arrays[0] + " --steps 0 --out design");
   const Finished f = in_design("yosys -q -p 'read_verilog -sv -Irtl rtl/*.v hopmesh_top.v hopmesh_axi_top.v; "
                                "hierarchy -check -top hopmesh_axi_top; proc; check -assert'");
   EXPECT_EQ(f.exit_code, 0) << f.out;
@@ -148,12 +149,12 @@ TEST_F(CliRtl, WithoutVerilatorTheLevelSaysSo) {
 
 TEST_F(CliRtl, TheLevelIsTheArray) {
   NEEDS("verilator");
-  const std::string motion = small + " --array folded --set array.elements=4 --steps 3 ";
+  const std::string motion = small_design + " --array folded --set array.elements=4 --steps 3 ";
   ASSERT_EQ(hopmesh("run " + motion + "--no-check --level rtl --out rtl").exit_code, 0);
   expect_same_bits(results_of(motion + "--no-check --level engine", "engine"), at("rtl"));
   const Finished f = good("compare " + motion + "--levels engine,systemc,rtl");
   EXPECT_THAT(f.out, HasSubstr("rtl"));
-  good("vectors " + small + " --array folded --set array.elements=4 --step 2 --sweeps 3 --out v.txt");
+  good("vectors " + small_design + " --array folded --set array.elements=4 --step 2 --sweeps 3 --out v.txt");
   EXPECT_EQ(good("vectors --check v.txt --level rtl").exit_code, 0);
 }
 
