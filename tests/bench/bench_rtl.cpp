@@ -1,9 +1,10 @@
-// How fast the array is at register-transfer level: the Verilog models as Verilator simulates them, beside
-// the native levels that do the same work to the bit and to the cycle. A single process, turns at random,
+// How fast the array is at register-transfer level: the RTL of rtl_model/verilog as the level `rtl` simulates
+// it, beside the levels that do the same work to the bit and to the cycle. A single process, turns at random,
 // like bench_array.
 #include "sim/engine/engine.h"
+#include "sim/levels/bus_array.h"
+#include "sim/levels/level.h"
 #include "tests/bench/flag_network.h"
-#include "tests/bench/verilated_flag.h"
 
 #include "place.h"
 
@@ -12,19 +13,16 @@
 namespace hopmesh::bench {
 namespace {
 
-/// Everything SystemC, made before simulation begins, and the models beside it.
+/// The flag on sixteen elements and one stage. Everything SystemC, made before simulation begins.
 struct Arrays {
   Arrays()
-      : inputs(scene::read_inputs(HOPMESH_SOURCE_DIR "/sim/scenes/flag-400.toml", "", {})),
+      : inputs(scene::read_inputs(HOPMESH_SOURCE_DIR "/sim/scenes/flag-400.toml", "folded", {})),
         mesh(inputs.scene), production("production", inputs.array, mesh.topology()),
         steps(inputs.scene, mesh, production) {}
 
   void find_network() {
     network.find(production, mesh.topology(), steps);
-    time_multiplexed = time_multiplexed_flag_array();
-    neuron_modules = neuron_modules_flag_array();
-    time_multiplexed->load(network.weights, network.biases);
-    neuron_modules->load(network.weights, network.biases);
+    rtl = levels::level_named("rtl", "").make_port(inputs.array, mesh.topology(), {});
   }
 
   scene::Inputs inputs;
@@ -32,18 +30,23 @@ struct Arrays {
   tests::Dut production;
   FlagSteps steps;
   FlagNetwork network;
-  std::unique_ptr<VerilatedArray> time_multiplexed, neuron_modules;
+  std::unique_ptr<levels::ArrayPort> rtl;
 };
 
 /// Loading is not counted, preparing is: it is part of a run.
-void run_verilated(benchmark::State& state, const FlagNetwork& network, VerilatedArray& array) {
+void run_rtl(benchmark::State& state, Arrays& a) {
+  const spec::Topology topology = a.mesh.topology();
+  const levels::BusArray array(a.rtl->bus(), topology);
+  const FlagNetwork& n = a.network;
+  array.load(n.weights, n.biases, n.start);
+  spec::Relaxation r;
   for (auto _ : state) {
     state.PauseTiming();
-    array.load_start(network.start);
+    array.put_outputs(n.start);
     state.ResumeTiming();
-    array.run(0, sweeps_a_run);
+    r = array.run(0, sweeps_a_run);
   }
-  report(state, network, outcome_of(array));
+  report(state, n, {array.outputs(), r.sweeps, r.cycles, r.largest_change});
 }
 
 /// The yardstick that bench_array has as well, so that its file and this one's can be put side by side.
@@ -94,11 +97,8 @@ void register_all(Arrays& a) {
     benchmark::RegisterBenchmark(name, body)->Iterations(runs)->Repetitions(9)->Unit(benchmark::kMillisecond);
   };
   add("flag-400 rtl/SystemC, by phase", 60, [&a](benchmark::State& s) { run_production(s, a); });
-  add("flag-400 rtl/Verilator, time-multiplexed", 100,
-      [&a](benchmark::State& s) { run_verilated(s, a.network, *a.time_multiplexed); });
+  add("flag-400 rtl/RTL, Verilator", 10, [&a](benchmark::State& s) { run_rtl(s, a); });
   add("flag-400 rtl/engine", 2000, [&a](benchmark::State& s) { run_engine(s, a); });
-  add("flag-400 rtl/Verilator, a module per neuron", 4,
-      [&a](benchmark::State& s) { run_verilated(s, a.network, *a.neuron_modules); });
 }
 
 } // namespace

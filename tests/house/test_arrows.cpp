@@ -21,6 +21,7 @@ const std::map<std::string, Rooms> allowed = {
     {"rtl_model/spec", {"firmware/registers.h"}},
     {"rtl_model/systemc", {"rtl_model/spec", "firmware/registers.h"}},
     {"rtl_model/describe", {"firmware/registers.h"}},
+    {"rtl_model/verilog", {}},
     {"sim/input", {"rtl_model/spec"}},
     {"sim/scene", {"rtl_model/spec", "sim/input"}},
     {"sim/reference", {"sim/scene"}},
@@ -87,8 +88,8 @@ const std::vector<Rooms> firmware_floors = {{"register_fields"},
                                             {"probe", "implicit", "static"},
                                             {"integrator"}};
 
-// Written by CMake when the build is configured.
-const std::set<std::string> generated = {"version.h", "place.h"};
+// Written by CMake when the build is configured, and by Verilator when a model is made.
+const std::set<std::string> generated = {"version.h", "place.h", "Vhm.h", "Vhm___024root.h", "verilated.h"};
 
 std::string room_of(const std::string& path) {
   static const std::regex shape("(firmware|(?:rtl_model|sim)/[^/]+|tests)/.*");

@@ -1,8 +1,8 @@
 // hopmesh fuzz: the differential campaign over all fixed levels.
 #include "sim/cli/options.h"
+#include "sim/cosim/campaign_arrays.h"
 #include "sim/cosim/finding.h"
 #include "sim/cosim/random_job.h"
-#include "sim/input/array_file.h"
 #include "sim/input/count_text.h"
 #include "sim/levels/interrupt.h"
 #include "sim/run/children.h"
@@ -39,22 +39,6 @@ Ways ways_asked_for(const FuzzOptions& o) {
   return all;
 }
 
-// What a level has to make ready for them is made before anything else.
-std::vector<spec::ArraySpec> arrays_asked_for(const FuzzOptions& o) {
-  std::vector<spec::ArraySpec> arrays;
-  std::vector<std::string> notes;
-  for (const std::string& array : o.arrays) arrays.push_back(input::read_array(array, {}, notes));
-  tell(notes);
-  for (const std::string& name : o.levels) {
-    const levels::Level& level = levels::level_named(name, "--levels", {levels::Kind::array});
-    if (!level.make_ready) continue;
-    if (arrays.empty())
-      throw input::input_error("", 0, "--arrays", "none", "the arrays of a campaign with level " + name);
-    for (const spec::ArraySpec& array : arrays) level.make_ready(array);
-  }
-  return arrays;
-}
-
 std::string command_of(const FuzzOptions& o, std::uint64_t first) {
   std::string command = fmt::format("hopmesh fuzz --seed {} --first {}", o.seed, first);
   if (o.cases > 0)
@@ -86,7 +70,9 @@ int campaign(const FuzzOptions& o, const Ways& all) {
   if (o.cases > 0) plan.cases = static_cast<std::uint64_t>(o.cases);
   if (o.seconds > 0) plan.seconds = o.seconds;
   if (o.cases == 0 && o.seconds == 0) plan.seconds = 10;
-  plan.arrays = arrays_asked_for(o);
+  std::vector<std::string> notes;
+  plan.arrays = cosim::campaign_arrays(o.levels, o.arrays, notes);
+  tell(notes);
   levels::catch_interrupts();
   cosim::CampaignResult r;
   {

@@ -114,7 +114,7 @@ fs::path verilator_include(const fs::path& verilator, const fs::path& folder) {
   return fs::path(root) / "include";
 }
 
-/// One source that includes all of a model: compiled at once, it is optimised at once.
+/// A source that includes all of a model: what is compiled at once is optimised at once.
 std::string whole_model(const fs::path& made, const fs::path& include) {
   std::string text;
   for (const auto& entry : fs::directory_iterator(made))
@@ -124,13 +124,17 @@ std::string whole_model(const fs::path& made, const fs::path& include) {
          fmt::format("#include \"{}/verilated_threads.cpp\"\n", include.string());
 }
 
-void build(const std::vector<machine::RtlParameter>& parameters, const fs::path& folder,
+/// What makes a model.
+struct Makers {
+  fs::path verilator = asked_program("verilator", "verilator"), compiler = asked_program("c++", "g++");
+};
+
+void build(const Makers& makers, const std::vector<machine::RtlParameter>& parameters, const fs::path& folder,
            const fs::path& library) {
-  const fs::path verilator = asked_program("verilator", "verilator"), compiler = asked_program("c++", "g++");
   fs::remove_all(folder);
   fs::create_directories(folder / "made");
   for (const auto& [name, text] : machine::rtl_sources()) files::write_file(folder / name, text);
-  Words make{verilator,
+  Words make{makers.verilator,
              "--cc",
              "-O3",
              "--x-assign",
@@ -151,10 +155,10 @@ void build(const std::vector<machine::RtlParameter>& parameters, const fs::path&
              folder / "hm_device.v"};
   for (const machine::RtlParameter& p : parameters) make.push_back(fmt::format("-G{}={}", p.name, p.value));
   run_program(make, folder / "verilator.log");
-  const fs::path include = verilator_include(verilator, folder);
+  const fs::path include = verilator_include(makers.verilator, folder);
   files::write_file(folder / "model.cpp", whole_model(folder / "made", include));
   const fs::path part = folder / "model.so";
-  run_program({compiler, "-std=c++17", "-O3", "-w", "-shared", "-fPIC", "-I" + folder.string(),
+  run_program({makers.compiler, "-std=c++17", "-O3", "-w", "-shared", "-fPIC", "-I" + folder.string(),
                "-I" + (folder / "made").string(), "-I" + include.string(),
                "-I" + (include / "vltstd").string(), folder / "model.cpp", "-o", part},
               folder / "compiler.log");
@@ -183,12 +187,13 @@ const RtlLibrary* rtl_library(const spec::ArraySpec& array, const machine::RtlRo
   const fs::path cache = rtl_cache(), library = cache / ("rtl-" + key + ".so");
   if (!fs::exists(library)) {
     if (when == RtlBuild::never) return nullptr;
+    const Makers makers;
     fs::create_directories(cache);
     const FileLock lock(cache / ("rtl-" + key + ".lock"));
     if (!fs::exists(library)) {
       input::say(fmt::format("hopmesh: rtl: making a model of \"{}\", once; it is kept in {}\n", array.name,
                              cache.string()));
-      build(parameters, cache / ("rtl-" + key), library);
+      build(makers, parameters, cache / ("rtl-" + key), library);
     }
   }
   return (loaded[key] = std::make_unique<RtlLibrary>(library)).get();

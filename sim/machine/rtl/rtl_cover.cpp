@@ -5,6 +5,7 @@ namespace hopmesh::machine {
 namespace {
 
 constexpr int most_rtl_elements = 256; ///< a line of the table has a field for each of them
+constexpr int most_with_stages = 32;   ///< every element has a memory of the links of every other
 
 } // namespace
 
@@ -18,6 +19,9 @@ std::optional<spec::SpecFault> rtl_fault(const spec::ArraySpec& a, const spec::T
   if (a.elements > most_rtl_elements)
     return SpecFault{"array.elements", number(a.elements),
                      "at most " + number(most_rtl_elements) + " elements of RTL"};
+  if (!spec::shares_stage(a) && a.elements > most_with_stages)
+    return SpecFault{"array.elements", number(a.elements),
+                     "at most " + number(most_with_stages) + " elements of RTL with a stage each"};
   if (a.lanes != 1) return SpecFault{"array.lanes", number(a.lanes), "1: an element of RTL has one lane"};
   if (!a.exact_accumulator)
     return SpecFault{"formats.accumulator", a.formats.accumulator.text(),

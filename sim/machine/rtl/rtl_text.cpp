@@ -132,6 +132,7 @@ std::string rtl_readme_text(const spec::ArraySpec& array, const spec::Topology& 
       "| `ice40.ys`, `ecp5.ys` | synthesis by yosys |\n\n"
       "```sh\n"
       "iverilog -g2012 -Irtl -Itest -f hopmesh.f -o hopmesh.vvp test/hopmesh_test.v && vvp -n hopmesh.vvp\n"
+      "iverilog -g2012 -Irtl -f hopmesh.f -o axi.vvp test/hopmesh_axi_test.v && vvp -n axi.vvp\n"
       "verilator --binary --timing -Wno-fatal -Irtl -Itest -f hopmesh.f --top-module hopmesh_test "
       "test/hopmesh_test.v && obj_dir/Vhopmesh_test\n"
       "yosys -q -s ecp5.ys\n"

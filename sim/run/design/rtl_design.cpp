@@ -60,7 +60,8 @@ DesignFacts write_rtl_design(const levels::Prepared& p, std::size_t steps,
   to.file("hopmesh.f", fmt::format("{}\n", fmt::join(machine::rtl_files(), "\n")));
   to.file("ice40.ys", machine::yosys_text("ice40", "hopmesh_axi_top"));
   to.file("ecp5.ys", machine::yosys_text("ecp5", "hopmesh_axi_top"));
-  to.file("test/hopmesh_test.v", machine::rtl_source("hopmesh_test.v"));
+  for (const std::string name : {"hopmesh_test.v", "hopmesh_axi_test.v"})
+    to.file("test/" + name, machine::rtl_source(name));
   to.file("test/script.hex", script.hex());
   to.file("test/hopmesh_script.vh", fmt::format("localparam SCRIPT_LINES = {};\n", script.lines()));
   to.file("README.md", machine::rtl_readme_text(array, topology, p.inputs.scene.name, steps));

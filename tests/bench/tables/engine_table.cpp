@@ -42,15 +42,11 @@ double stream_of(const Results& r, const std::string& name) {
 
 void print_ratios(const Results& r) {
   const double engine = updates(r, "flag-400 rtl/engine");
-  ratio("engine / Verilator, time-multiplexed",
-        engine / updates(r, "flag-400 rtl/Verilator, time-multiplexed"), 60, 150);
-  ratio("engine / Verilator, a module per neuron",
-        engine / updates(r, "flag-400 rtl/Verilator, a module per neuron"), 800, 2000);
+  ratio("engine / RTL, Verilator", engine / updates(r, "flag-400 rtl/RTL, Verilator"), 60, 150);
   ratio("engine / SystemC, by phase", engine / updates(r, "flag-400 rtl/SystemC, by phase"), 50, 150);
-  ratio("clock by clock, every register / Verilator, time-multiplexed",
-        r.median("clocked/one by one", "cycles/s") /
-            r.median("flag-400 rtl/Verilator, time-multiplexed", "cycles/s"),
-        10, 25);
+  ratio("clock by clock, every register / RTL, Verilator",
+        r.median("clocked/one by one", "cycles/s") / r.median("flag-400 rtl/RTL, Verilator", "cycles/s"), 10,
+        25);
   ratio("engine / Eigen double reference", updates(r, "plain/400") / updates(r, "reference/double, Eigen"),
         15, 35);
   for (const char* sweeps : {"8", "16"})
