@@ -1,6 +1,6 @@
 // Access rights of the register file, as docs/hardware/registers.md tells them in words: which addresses exist, which
-// may be written, that what may be written is read back and changes by nothing else but a RESET, that what is written
-// only reads as 0, and that a written 1 clears a cause unless hardware raises it in that cycle.
+// may be written, that the limits of a run are read back and change by nothing else but a RESET, and that what is written
+// only reads as 0. Causes of interrupts are not looked at.
 module check_registers #(
     parameter STATE_BITS = 8,
     parameter SUM_BITS = 12
