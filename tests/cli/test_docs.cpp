@@ -216,6 +216,12 @@ TEST_F(CliDocs, FilesColumnsAndKeysOfResultsAreOnTheirPage) {
   keys.merge(keys_in(read_json(corrected / "stats.json"), ""));
   const auto certain = results_of("banner --steps 1 --check", "k"); // whose network is definite
   keys.merge(keys_in(read_json(certain / "stats.json")["against_reference"], "against_reference."));
+  const auto whole = results_of("banner --steps 1 --check --set host.arithmetic=fixed", "w");
+  keys.merge(keys_in(read_json(whole / "stats.json")["against_reference"], "against_reference."));
+  keys.insert({"host", "host.instructions"});
+  if (hopmesh("run two-nodes --steps 1 --host rv32 --out e").exit_code == 0) { // the build has the emulator
+    EXPECT_TRUE(read_json(at("e/stats.json"))["host"].contains("instructions"));
+  }
   EXPECT_EQ(named, keys);
   for (const auto& item : stats["ranges"][0].items()) EXPECT_THAT(text, HasSubstr('`' + item.key() + '`'));
 }

@@ -8,10 +8,10 @@ namespace {
 constexpr const char* summary_words[] = {"sum", "steps at 0", "root mean square", "median", "largest"};
 
 std::string totals_of(const levels::StepColumn& column) {
-  const std::string within =
-      column.subject == levels::Subject::reference || column.subject == levels::Subject::certainty
-          ? "against_reference."
-          : "";
+  using levels::Subject;
+  const bool judged = column.subject == Subject::reference || column.subject == Subject::certainty ||
+                      column.subject == Subject::arithmetic;
+  const std::string within = judged ? "against_reference." : column.subject == Subject::host ? "host." : "";
   std::string cell;
   for (const levels::Total& total : column.totals)
     if (total.key)

@@ -225,16 +225,16 @@ TEST(ReadRows, SayWhichLineIsNone) {
   const Folder folder;
   std::string header;
   for (const std::string& name : run::step_header()) header += (header.empty() ? "" : ",") + name;
-  const std::string row = "0,0.05,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,00000000000000ff\n";
+  const std::string row = "0,0.05,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,,,00000000000000ff\n";
   const auto read = [&](const std::string& text) {
     write_text(folder / "t.csv", text);
     return run::read_rows(folder / "t.csv", text.size());
   };
   EXPECT_EQ(read(header + '\n' + row).at(0).hash, 255u);
-  for (const char* bad : {"0,0.05,1\n", "x,0.05,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,ff\n",
-                          "0,0,1,2,3,4,5,6,2,0.5,,,7,8,9,10,,,,,,,0,0,,,,ff\n",
-                          "0,0,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,1,,,,,0,0,,,,ff\n",
-                          "0,0,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,ff,1\n"}) {
+  for (const char* bad : {"0,0.05,1\n", "x,0.05,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,,,ff\n",
+                          "0,0,1,2,3,4,5,6,2,0.5,,,7,8,9,10,,,,,,,0,0,,,,,,ff\n",
+                          "0,0,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,1,,,,,0,0,,,,,,ff\n",
+                          "0,0,1,2,3,4,5,6,1,0.5,,,7,8,9,10,,,,,,,0,0,,,,,,ff,1\n"}) {
     EXPECT_THAT(complaint([&] { read(header + '\n' + row + bad); }), HasSubstr("t.csv:3: found "));
   }
 }
