@@ -24,10 +24,11 @@ TEST_P(CliMistake, IsRefusedInOneLine) {
 const std::vector<Mistake> mistakes{
     {"Verb",
      "rnu flag-400",
-     {"verb: found rnu", "run, compare, info, vectors, fuzz, sweep, chart, stability", "mean run?"}},
+     {"verb: found rnu", "run, compare, info, vectors, fuzz, rtl, cost, sweep, chart, stability",
+      "mean run?"}},
     {"VerbFarFromAll",
      "dance flag-400",
-     {"found dance", "run, compare, info, vectors, fuzz, sweep, chart, stability"}},
+     {"found dance", "run, compare, info, vectors, fuzz, rtl, cost, sweep, chart, stability"}},
     {"Flag", "run two-nodes --lvel systemc", {"flag: found --lvel", "mean --level?"}},
     {"FlagWithValue", "run two-nodes --stps=4", {"found --stps", "mean --steps?"}},
     {"FlagOfAnotherVerb", "info two-nodes --steps 4", {"found --steps", "--toml"}},
