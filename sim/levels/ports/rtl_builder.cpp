@@ -51,7 +51,7 @@ fs::path found_program(const std::string& name) {
   std::string rest = path ? path : "";
   while (!rest.empty()) {
     const std::size_t end = rest.find(':');
-    const fs::path file = fs::path(rest.substr(0, end)) / name;
+    fs::path file = fs::path(rest.substr(0, end)) / name;
     if (access(file.c_str(), X_OK) == 0) return file;
     rest = end == std::string::npos ? "" : rest.substr(end + 1);
   }
@@ -96,7 +96,7 @@ class FileLock {
 };
 
 fs::path asked_program(const std::string& name, const std::string& package) {
-  const fs::path found = found_program(name);
+  fs::path found = found_program(name);
   if (found.empty())
     throw input::input_error("", 0, "level rtl", "no program " + name,
                              fmt::format("it, to make a model of this array (apt-get install {})", package));

@@ -29,7 +29,7 @@ std::string module_called(const std::string& list, const std::string& name) {
   for (std::string line; std::getline(lines, line);) {
     const std::size_t from = line.find_first_not_of(' ');
     if (from == std::string::npos) continue;
-    const std::string module = line.substr(from);
+    std::string module = line.substr(from);
     if (module == name ||
         (module.size() > name.size() && module.substr(module.size() - name.size() - 1) == "\\" + name))
       return module;
