@@ -54,8 +54,8 @@ class StepArray {
 solvers::SolverRun run_array(const std::string& name, StepArray& array, const solvers::Problem& problem,
                              const solvers::Answer& answer, solvers::Limits limits,
                              const std::atomic<bool>& stop);
-/// Likewise of one whose answers are corrected by their residuals; a relaxation after the other, each by the
-/// scene's rule.
+/// The run of an array whose answers are corrected by their residuals; a relaxation after the other, each by
+/// the scene's rule.
 solvers::SolverRun run_corrected(const std::string& name, StepArray& array, const solvers::Problem& whole,
                                  const solvers::Problem& problem, const solvers::Answer& answer,
                                  const solvers::Limits& limits, const std::atomic<bool>& stop);

@@ -1,6 +1,5 @@
 // Files that live in the program, so that an installed program needs no data folder for them: the report's
-// HTML, CSS and JavaScript, and the picture on every flag. embed.cmake writes them into a source during the
-// build.
+// HTML, CSS and JavaScript, and the picture on every flag.
 #pragma once
 
 #include <string>

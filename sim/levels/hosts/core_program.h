@@ -35,7 +35,4 @@ class CoreProgram {
   std::map<std::uint32_t, std::string> functions_;
 };
 
-/// The program for such a core, "rv32im" or "rv32imfd".
-std::string_view program_for(const std::string& core);
-
 } // namespace hopmesh::levels

@@ -53,8 +53,8 @@ class StepHost {
   virtual std::uint64_t memory_bytes() const { return 0; }
 };
 
-/// That of scene.host. Throws input::InputError where this build has no such host, or it does not take such a
-/// motion.
+/// The host that scene.host describes. Throws input::InputError where this build has no such host, or where
+/// that host does not take such a motion.
 std::unique_ptr<StepHost> make_host(const scene::Scene& scene, const spec::ArraySpec& array,
                                     const HostPlace& place);
 

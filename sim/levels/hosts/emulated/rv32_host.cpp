@@ -6,8 +6,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <stdexcept>
+#include <utility>
 
 namespace hopmesh::levels {
+
+/// Made during the build: hopmesh_embed of CMakeLists.txt.
+const std::vector<std::pair<std::string, std::string>>& core_programs();
+
+namespace {
+
+const std::string& program_for(const std::string& core) {
+  for (const auto& [file, elf] : core_programs())
+    if (file == core + ".elf") return elf;
+  throw std::logic_error("no program for " + core);
+}
+
+} // namespace
 
 // What core and loader both read has no pointers, and the layout of 32 bits.
 static_assert(sizeof(hm_spring) == 32 && offsetof(hm_spring, weight) == 8 && offsetof(hm_spring, link) == 24);
