@@ -56,7 +56,7 @@ FigureTable step_time_table(const spec::ArraySpec& array, const spec::Topology& 
            row("bus: read back", step.runs * bus.read),
            {"bus and array together", fmt::format("{} cycles, {:.3g} ms at {} MHz", grouped(time.cycles()),
                                                   1e3 * time.seconds(array.clock_mhz), array.clock_mhz)},
-           {"host, bus and array idle", "not known"},
+           {"host, bus and array idle", "a run tells it, where the host counts (host.processor)"},
            {"utilisation", utilisation_text(t)}}};
 }
 

@@ -10,7 +10,7 @@
 namespace hopmesh::run {
 
 std::string host_text(const scene::HostSpec& host) {
-  return fmt::format("host {} at {:g} MHz, {:g} cycles an instruction", name_of(host.core), host.clock_mhz,
+  return fmt::format("host {} at {:g} MHz, cycles an instruction: {:g}", name_of(host.core), host.clock_mhz,
                      host.cpi);
 }
 

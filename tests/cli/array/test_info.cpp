@@ -108,7 +108,7 @@ TEST_F(CliInfo, TellsTheTimeOfAStepByHand) {
   EXPECT_EQ(row(out, "array: sweeps"), "220 cycles, 77.2 %");
   EXPECT_EQ(row(out, "bus: read back"), "14 cycles, 4.91 %"); // 5 * 2 + (1 + 3)
   EXPECT_EQ(row(out, "bus and array together"), "285 cycles, 0.00285 ms at 100 MHz");
-  EXPECT_EQ(row(out, "host, bus and array idle"), "not known");
+  EXPECT_EQ(row(out, "host, bus and array idle"), "a run tells it, where the host counts (host.processor)");
   // Three multipliers multiply nine weights a sweep.
   EXPECT_EQ(row(out, "utilisation"), "12.3 % of the array's cycles, 10.5 % of array and bus");
   const std::string twice = good("info two-nodes --sweeps 10 --set relax.expansions=2").out;
